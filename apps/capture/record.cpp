@@ -92,6 +92,11 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
   frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
+  if (stats.bodies)
+    frame["bodies"] = {{"kinetic_J", stats.bodies->kinetic_J},
+                       {"potential_J", stats.bodies->potential_J},
+                       {"momentum", stats.bodies->momentum},
+                       {"stopped", stats.bodies->stopped}};
   frame["wall_s"] = stats.wall_s;
   frame["pass_ms"] = pass_ms;
   frame["skipped"] = skipped;
@@ -161,6 +166,13 @@ std::vector<Figure> Record::figures() const {
       {"loop_bound_hits", of(&Stats::loopBoundHits)(largest), ""},
       {"picture_bound_hits", double(pictureBoundHits()), ""},
   };
+  if (bodyCount(*scene_) > 0) {
+    const BodyFigures bodies = last.bodies.value_or(BodyFigures{});
+    figures.push_back({"bodies.kinetic_J", bodies.kinetic_J, "J"});
+    figures.push_back({"bodies.potential_J", bodies.potential_J, "J"});
+    addComponents("bodies.momentum", bodies.momentum, "kg m/s", figures);
+    figures.push_back({"bodies.stopped", double(bodies.stopped), ""});
+  }
   for (const Probe& probe : scene_->probes) {
     const auto found =
         std::find_if(last.probes.begin(), last.probes.end(), [&](const auto& measured) { return measured.first == probe.name; });
@@ -227,11 +239,14 @@ std::vector<std::string> Record::warnings() const {
                        " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed, weight and "
                        "viscosity and solver.time_step allow");
   if (last.loopBoundHits > 0)
-    warnings.push_back("warning: neighbor loops reached their limit " + grouped(last.loopBoundHits) +
-                       " times since the start: some particles have too many neighbors");
+    warnings.push_back("warning: loops of the fluid's shaders reached their limit " + grouped(last.loopBoundHits) +
+                       " times since the start: some particles have too many neighbors, or bodies touch too many solids");
   if (last.nonFinite > 0)
     warnings.push_back("warning: " + grouped(last.nonFinite) + (last.nonFinite == 1 ? " particle is" : " particles are") +
                        " inactive: the position or velocity was not finite");
+  if (last.bodies && last.bodies->stopped > 0)
+    warnings.push_back("warning: " + grouped(last.bodies->stopped) + (last.bodies->stopped == 1 ? " body was" : " bodies were") +
+                       " stopped: farther from the start than positions can be told apart");
   if (const uint64_t hits = pictureBoundHits(); hits > 0) warnings.push_back(boundHitsWarning(hits));
   return warnings;
 }

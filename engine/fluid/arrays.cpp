@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shape/contact_points.hpp"
 #include "sort/dispatches.hpp"
 #include "sort/sort_types.h"
 
@@ -39,6 +40,11 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
     {SolidSums, "solidSums", "sums of solids", Fluid, kSolidSumWords* kWord, perSolidIfLoads},
     {SolidLoads, "solidLoads", "loads on solids", Fluid, sizeof(SolidLoadRecord), perSolidIfLoads},
+    {Bodies, "bodies", "rigid bodies", Fluid, sizeof(BodyRecord), [](const ArrayShape& s) { return s.bodies; }},
+    {ContactPoints, "contactPoints", "contact points of bodies", Fluid, sizeof(ContactPointRecord),
+     [](const ArrayShape& s) { return s.contactPoints; }},
+    {Slips, "slips", "slips of contact points", Fluid, sizeof(SlipRecord), [](const ArrayShape& s) { return s.contactPoints; }},
+    {Touched, "touched", "solids that bodies touch", Section, sizeof(TouchedRecord), [](const ArrayShape& s) { return s.bodies; }},
     {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},
     {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
@@ -60,6 +66,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      [](const ArrayShape& s) { return s.solids > 0 ? withDummy(s) : 0; }, Account::Particles},
     {NearExcess, "nearExcess", "corrections by scales of neighbors", Fluid, kVector,
      [](const ArrayShape& s) { return 2 * perParticleIfSolids(s); }, Account::Particles},
+    {NearStiffness, "nearStiffness", "stiffness of bodies", Fluid, kWord,
+     [](const ArrayShape& s) { return s.bodies > 0 ? s.particles : 0; }, Account::Particles},
     {NearSolids, "nearSolids", "particles near solids", Fluid, sizeof(NearSolidRecord), perParticleIfSolids, Account::Particles},
 
     {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
@@ -107,6 +115,8 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .gravityChanges = setup.gravity.size() / 4,
           .tableEntries = setup.tables.size() / 4,
           .solids = p.solidCount,
+          .bodies = p.bodyCount,
+          .contactPoints = p.contactPoints,
           .meshWords = setup.meshWords.size(),
           .keyframes = setup.keyframes.size() / kKeyframeNumbers,
           .lists = p.listCapacity > 0,
@@ -124,6 +134,8 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
           .cellStarts = maxGridCells(particles) + 1,
           .solids = scene.solids.size(),
+          .bodies = bodyCount(scene),
+          .contactPoints = kMaxContactPoints * bodyCount(scene),
           .lists = lists,
           .warm = startsWarm(scene),
           .iterated = scene.solver.iterations > 1,

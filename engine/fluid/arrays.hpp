@@ -27,6 +27,10 @@ enum class FluidArray : uint8_t {
   Solids,
   SolidSums,
   SolidLoads,
+  Bodies,
+  ContactPoints,
+  Slips,
+  Touched,
   MeshWords,
   Keyframes,
   // Per particle.
@@ -43,6 +47,7 @@ enum class FluidArray : uint8_t {
   NearDisplaced,
   NearTangential,
   NearExcess,
+  NearStiffness,
   NearSolids,
   // The neighbor search.
   CellStart,
@@ -79,7 +84,7 @@ struct ArrayShape {
   uint64_t particles = 0;    ///< at most
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
-  uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, meshWords = 0, keyframes = 0;
+  uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, meshWords = 0, keyframes = 0;
   bool lists = true, warm = false, iterated = false, smooths = false, vorticity = false, loads = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);

@@ -10,6 +10,8 @@
 #include "core/vector_math.hpp"
 #include "core/words.hpp"
 #include "fluid/numbers.hpp"
+#include "shape/contact_points.hpp"
+#include "shape/mass.hpp"
 #include "shape/records.hpp"
 #include "shape/thin_parts.hpp"
 #include "sph/half_space.hpp"
@@ -55,7 +57,84 @@ Expected<uint32_t> addMesh(const std::shared_ptr<const Mesh>& mesh, const std::s
   return at->second;
 }
 
+/// What follows from a shape; solids with the same mesh share it.
+struct BodyShape {
+  std::vector<ContactPoint> points;
+  MassProperties unit;  ///< of density 1
+};
+
+const BodyShape& bodyShape(const Shape& shape, std::map<const Mesh*, BodyShape>& meshes, BodyShape& other) {
+  const auto* mesh = std::get_if<MeshShape>(&shape);
+  if (!mesh) return other = {contactPoints(shape), massOf(shape, 1)};
+  const auto [at, fresh] = meshes.try_emplace(mesh->mesh.get());
+  if (fresh) at->second = {contactPoints(shape), massOf(shape, 1)};
+  return at->second;
+}
+
+/// Whether 32-bit floats can hold the mass and a positive definite inertia, and their inverses.
+bool fits(const MassProperties& m) {
+  constexpr double kLeast = 1e-30, kMost = 1e30;
+  const auto& [xx, yy, zz, yz, zx, xy] = m.inertia;
+  const double minor = xx * yy - xy * xy, determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
+  const double size = xx + yy + zz;
+  const auto within = [](double value) { return value > kLeast && value < kMost; };
+  return within(m.mass) && within(size) && xx > 0 && minor > 0 && determinant > 1e-12 * size * size * size;
+}
+
+BodyRecord bodyRecord(const Solid& solid, const MassProperties& m, uint32_t index, const Double3& origin) {
+  const Pose pose = solidPose(solid, 0.0);
+  const Double3 center = along(pose.center, 1, toScene(pose, m.center));
+  const Body& body = *solid.body;
+  const PoseRecord state{f(center.x - origin.x),    f(center.y - origin.y), f(center.z - origin.z),     f(pose.rotation.x),
+                         f(pose.rotation.y),        f(pose.rotation.z),     f(pose.rotation.w),         f(body.velocity.x),
+                         f(body.velocity.y),        f(body.velocity.z),     f(body.angular_velocity.x), f(body.angular_velocity.y),
+                         f(body.angular_velocity.z)};
+  const auto& i = m.inertia;
+  return {.state = state,
+          .predicted = state,
+          .offsetX = f(m.center.x),
+          .offsetY = f(m.center.y),
+          .offsetZ = f(m.center.z),
+          .mass = f(m.mass),
+          .inertiaXX = f(i[0]),
+          .inertiaYY = f(i[1]),
+          .inertiaZZ = f(i[2]),
+          .inertiaYZ = f(i[3]),
+          .inertiaZX = f(i[4]),
+          .inertiaXY = f(i[5]),
+          .solid = index,
+          .locked = body.locked,
+          .from = f(body.from),
+          .held = body.from > 0,
+          .radius = f(radiusAbout(solid.shape, m.center))};
+}
+
+Expected<void> addBody(const Solid& solid, const BodyShape& shape, const Double3& origin, FluidSetup& setup) {
+  const auto index = static_cast<uint32_t>(setup.solids.size());
+  const MassProperties m = massOf(solid, shape.unit);
+  if (!fits(m))
+    return Error{ErrorKind::BadInput, elementPath("solids", index) + ".body: a mass of " + roundedNumber(m.mass) +
+                                          " kg and moments of inertia of " + roundedNumber(m.inertia[0]) + ", " +
+                                          roundedNumber(m.inertia[1]) + " and " + roundedNumber(m.inertia[2]) +
+                                          " kg m^2 do not fit 32-bit floats; expected 1e-30 to 1e30, and no moment 1e-6 of another"};
+  setup.movingSolids = true;
+  setup.bodies.push_back(bodyRecord(solid, m, index, origin));
+  for (const ContactPoint& point : shape.points)
+    setup.contactPoints.push_back(
+        {f(point.center.x), f(point.center.y), f(point.center.z), f(point.radius), static_cast<uint32_t>(setup.bodies.size() - 1)});
+  return {};
+}
+
 }  // namespace
+
+double fastestBody(const Scene& scene) {
+  double fastest = 0;
+  for (const Solid& solid : scene.solids)
+    if (solid.body)
+      fastest = std::max(fastest, length(solid.body->velocity) +
+                                      radiusAbout(solid.shape, massOf(solid.shape, 1).center) * length(solid.body->angular_velocity));
+  return fastest;
+}
 
 double fastestSolid(const Scene& scene) {
   double fastest = 0;
@@ -77,12 +156,20 @@ double fastestDriven(const Scene& scene) {
 
 Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup) {
   std::map<const Mesh*, uint32_t> meshes;
+  std::map<const Mesh*, BodyShape> bodyShapes;
+  BodyShape other;
   for (const Solid& solid : scene.solids) {
     const std::string path = elementPath("solids", setup.solids.size()) + ".mesh";
     SolidRecord record{};
     record.pose = recordOf(solidPose(solid, 0.0), origin);
     record.shape = recordOf(solid.shape);
     record.base = baseRecord(solid, origin);
+    record.body = kNoBody;
+    if (solid.body) {
+      record.body = static_cast<uint32_t>(setup.bodies.size());
+      record.freeBody = solid.body->from <= 0;
+      if (auto added = addBody(solid, bodyShape(solid.shape, bodyShapes, other), origin, setup); !added) return added.error();
+    }
     record.friction = f(solid.friction);
     record.restitution = f(solid.restitution);
     std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);

@@ -7,6 +7,8 @@ namespace rill {
 
 /// Bounds the speed of every point of the solids that keyframes move, m/s.
 double fastestSolid(const Scene& scene);
+/// Bounds the initial speed of every point of the bodies, m/s.
+double fastestBody(const Scene& scene);
 /// m/s, of all solids that the host moves.
 double fastestDriven(const Scene& scene);
 

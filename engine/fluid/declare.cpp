@@ -12,6 +12,10 @@ uint64_t FluidImpl::fixedGroups(Extent extent) const {
       return 1;
     case Extent::Partials:
       return std::min<uint64_t>(divideUp(capacity, kMeasureShare * kFluidGroup), kMeasurePartials);
+    case Extent::Bodies:
+      return divideUp(setup.bodies.size(), kFluidGroup);
+    case Extent::ContactPoints:
+      return divideUp(setup.contactPoints.size(), kFluidGroup);
     default:
       return divideUp(capacity, kFluidGroup);
   }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "fluid/body_figures.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "graph/graph_impl.hpp"
 
@@ -30,6 +31,15 @@ SolidLoad loadOf(const SolidLoadRecord& r) {
 }
 
 }  // namespace
+
+void FluidImpl::takeBodies(std::span<const std::byte> records) const {
+  for (size_t k = 0; k < bodyRecords.size(); ++k) {
+    BodyRecord record{};
+    if (!read(records.subspan(std::min(k * sizeof record, records.size())), record)) return;
+    bodyRecords[k] = record;
+    bodyMotions[k] = motionOf(record, origin);
+  }
+}
 
 void FluidImpl::takeLoads(std::span<const std::byte> records) const {
   for (size_t k = 0; k < solidLoads.size(); ++k) {
@@ -63,8 +73,9 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
     FluidPassRuns runs{row.name, 0, 0};
     for (Start start : row.starts) {
       if (start == Start::Always || start == Start::Predict || start == Start::Figures) continue;  // whatever is recorded of these runs
-      const uint32_t times = recorded(row.id, start);
-      if (times > 0) runs.executed += executed(start);
+      const uint32_t times = recorded(row.id, start), substeps = recordedLast_.substeps - recordedBefore_.substeps;
+      const bool everySubstep = start == Start::Density || start == Start::Correct;
+      if (times > 0) runs.executed += executed(start) * (everySubstep ? std::max(times / std::max(substeps, 1u), 1u) : 1u);
       runs.recorded += times;
     }
     if (runs.recorded > 0) all.push_back(runs);
@@ -100,6 +111,7 @@ void FluidImpl::poll() const {
                 .substeps = control.substeps,
                 .iterations = control.iterations,
                 .listBuilds = control.builds};
+    if (!setup.bodies.empty()) takeBodies(pending.graph.lock()->data(pending.bodies));
     if (setup.loads) takeLoads(pending.graph.lock()->data(pending.loads));
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
@@ -124,6 +136,7 @@ void FluidImpl::poll() const {
         s.momentum[a] = mass * velocity[a];
         s.centerOfMass[a] = sum[a] / n;
       }
+      if (!bodyRecords.empty()) s.bodies = figuresOf(bodyRecords, origin, gravity);
       s.maxSpeed = m.speedMax;
       s.nonFinite = sums.nonFinite;
       s.outside = m.outside;

@@ -49,7 +49,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const ParticleSet& particles = *desc.particles;
   Scene scene = *desc.scene;
   if (particles.spacing > 0) scene.fluid.spacing = particles.spacing;
-  const uint64_t n = particles.positions.size(), capacity = std::max<uint64_t>(desc.capacity, n);
+  const uint64_t n = particles.positions.size(), capacity = std::max<uint64_t>({desc.capacity, n, uint64_t{bodyCount(scene) > 0}});
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, capacity);
@@ -82,6 +82,9 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->capacity = static_cast<uint32_t>(capacity);
   impl->count = static_cast<uint32_t>(desc.snapshot ? desc.snapshot->id.size() : n);
   impl->origin = particles.origin;
+  impl->bodyRecords = impl->setup.bodies;
+  impl->bodyMotions.resize(impl->bodyRecords.size());
+  impl->takeBodies(std::as_bytes(std::span(impl->setup.bodies)));
 
   if (desc.snapshot)
     if (auto fits = checkSnapshot(*desc.snapshot, snapshotShape(impl->setup)); !fits) return fits.error();

@@ -42,6 +42,11 @@ std::span<const SolidLoad> Fluid::solidLoads() const {
   return impl_->solidLoads;
 }
 
+std::span<const BodyMotion> Fluid::bodies() const {
+  impl_->poll();
+  return impl_->bodyMotions;
+}
+
 Double3 Fluid::drivenCenter(uint32_t solid) const {
   const auto& driven = impl_->setup.driven;
   const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });

@@ -59,7 +59,8 @@ class FluidImpl {
   FluidState present(Graph& graph) const;
   void poll() const;
   std::vector<FluidPassRuns> passRuns() const;
-  void takeLoads(std::span<const std::byte> records) const;  ///< SolidLoadRecords
+  void takeBodies(std::span<const std::byte> records) const;  ///< BodyRecords
+  void takeLoads(std::span<const std::byte> records) const;   ///< SolidLoadRecords
   std::span<const Chunk> chunks() const { return chunks_; }
   const Buffer& buffer(FluidArray array, uint32_t chunk = 0) const { return slot(slotOf(array, chunk)); }
   const Buffer& slot(size_t slot) const { return buffers_[slot]; }
@@ -73,6 +74,8 @@ class FluidImpl {
   mutable std::optional<FluidStats> stats;
   mutable FluidProgress progress;
   mutable std::vector<SolidLoad> solidLoads;
+  mutable std::vector<BodyRecord> bodyRecords;  ///< of the last finished frame
+  mutable std::vector<BodyMotion> bodyMotions;  ///< likewise
 
  private:
   /// What was recorded, since the start, of what the device switches on and off.
@@ -88,7 +91,7 @@ class FluidImpl {
 
   struct Pending {
     std::weak_ptr<GraphImpl> graph;
-    Ticket control, sums, measure, loads;
+    Ticket control, sums, measure, loads, bodies;
     bool measured;
     bool uploads;  ///< the start state has been copied once this frame has finished
     Recorded recorded;
@@ -129,6 +132,7 @@ class FluidImpl {
   void declareSkipped(Graph& graph) const;
   // substep_passes.cpp
   void declareSubstep(Graph& graph, uint32_t parity, bool first);  ///< first of its block
+  void declareBodies(Graph& graph);
   void declareForces(Graph& graph, bool first);
   void declareViscosity(Graph& graph);
   void declareNoiseDamping(Graph& graph);

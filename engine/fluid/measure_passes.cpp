@@ -8,7 +8,7 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
   ++recording_.sorts;
   beginSection();
   alias(Place, Position);
-  declare(graph, FluidPass::MeasureDisplaced, Start::Figures);
+  declare(graph, FluidPass::MeasureDisplaced, Start::Figures, DisplacePush{});
   BufferRef& histogram = ref(Histogram) = graph.create(rowOf(Histogram).label, {arrayBytes(Histogram, arrayShape(setup))});
   addFill(graph, "clear histogram", {{&histogram, 0}});
   const Gate gate{ref(FluidArray::Commands), sortCommand_ + static_cast<uint32_t>(sort_->dispatches().size())};

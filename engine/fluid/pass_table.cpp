@@ -4,7 +4,8 @@ namespace rill {
 namespace {
 
 bool solids(const FluidSetup& s) { return s.params.solidCount > 0; }
-bool moves(const FluidSetup& s) { return s.movingSolids; }
+bool moves(const FluidSetup& s) { return !s.keyframes.empty(); }
+bool bodies(const FluidSetup& s) { return !s.bodies.empty(); }
 bool loads(const FluidSetup& s) { return s.loads; }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
 bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
@@ -16,9 +17,9 @@ bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1; }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
 
-constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"}, kLoads{loads, "no loads asked for"},
-    kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"}, kSwirls{swirls, "vorticity is 0"},
-    kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
+constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"}, kBodies{bodies, "no bodies"},
+    kLoads{loads, "no loads asked for, and no bodies"}, kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
+    kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
 
 using P = FluidPass;
 using E = Extent;
@@ -38,6 +39,11 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::FinishRebuild, "finish rebuild", "fluid/finish_rebuild"},
 
     {P::MoveSolids, "move solids", "fluid/pose", E::One, {S::Density}, kMoves},
+    {P::PredictBodies, "predict bodies", "fluid/predict_bodies", E::One, {S::Density}, kBodies},
+    {P::TouchedSolids, "touched solids", "fluid/touched_solids", E::Bodies, {S::Density}, kBodies},
+    {P::CountContacts, "count contacts", "fluid/contacts", E::ContactPoints, {S::Density}, kBodies, {.constant = {"COUNTS", true}}},
+    {P::Contacts, "contacts", "fluid/contacts", E::ContactPoints, {S::Density}, kBodies},
+    {P::PushBodies, "push bodies", "fluid/push_bodies", E::Bodies, {S::Density}, kBodies},
     {P::Iterate, "iterate", "fluid/iterate", E::Gather, {S::Iterate}, kIterates},
     {P::DisplaceDensity, "density of solids", "fluid/solids", E::NearSolids, kSolve, kSolids},
     {P::Density, "density", "fluid/density", E::Gather, kSolve},
@@ -47,7 +53,8 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Collide, "collide", "fluid/collide", E::NearSolids, kEnd, kSolids},
 
     {P::SumLoads, "sum loads", "fluid/loads", E::NearSolids, {S::Correct, S::Iterate}, kLoads},
-    {P::SolidLoads, "loads on solids", "fluid/solid_loads", E::One, kEnd, kLoads},
+    {P::SolidLoads, "loads on solids", "fluid/solid_loads", E::One, {S::Correct, S::Iterate}, kLoads},
+    {P::MoveBodies, "move bodies", "fluid/move_bodies", E::One, {S::Correct, S::Iterate}, kBodies},
 
     {P::Viscosity, "viscosity", "fluid/viscosity", E::Gather, kEnd, kViscous},
     {P::CopyVelocities, "copy velocities", "fluid/copy_velocity", E::Particles, kEnd, {copies}},

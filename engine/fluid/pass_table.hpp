@@ -25,6 +25,11 @@ enum class FluidPass : uint8_t {
   FinishRebuild,
   // A substep.
   MoveSolids,
+  PredictBodies,
+  TouchedSolids,
+  CountContacts,
+  Contacts,
+  PushBodies,
   Iterate,
   DisplaceDensity,
   Density,
@@ -34,6 +39,7 @@ enum class FluidPass : uint8_t {
   Collide,
   SumLoads,
   SolidLoads,
+  MoveBodies,
   Viscosity,
   CopyVelocities,
   VelocityNoise,
@@ -78,7 +84,9 @@ enum class Extent : uint8_t {
   Chunks,      ///< all particles, a dispatch for each buffer of the neighbor list
   Gather,      ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
   NearSolids,  ///< particles near solids
-  NearGather   ///< the same over their neighbors, a dispatch for each buffer of the list, in the variant that can walk the grid
+  Bodies,      ///< rigid bodies
+  ContactPoints,  ///< their sample points
+  NearGather      ///< the same over their neighbors, a dispatch for each buffer of the list, in the variant that can walk the grid
 };
 
 /// When a pass exists, and what the report of skipped passes says where it does not.

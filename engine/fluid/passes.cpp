@@ -78,7 +78,8 @@ FluidState FluidImpl::present(Graph& graph) const {
   state.velocity = importWhole(graph, "velocities", buffer(FluidArray::Velocity));
   state.id = importWhole(graph, "ids", buffer(FluidArray::Id));
   state.countBuffer = state.control = importWhole(graph, "control", buffer(FluidArray::Control));
-  if (!setup.driven.empty() || !setup.meshWords.empty()) state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
+  if (!setup.driven.empty() || !setup.meshWords.empty() || !setup.bodies.empty())
+    state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
   if (!setup.meshWords.empty()) state.meshWords = importWhole(graph, "fields of meshes", buffer(FluidArray::MeshWords));
   if (setup.loads) state.loads = importWhole(graph, "loads on solids", buffer(FluidArray::SolidLoads));
   return state;
@@ -137,7 +138,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{implOf(graph).weakSelf(), {}, {}, {}, {}, false, uploads, {}};
+  Pending pending{implOf(graph).weakSelf(), {}, {}, {}, {}, {}, false, uploads, {}};
   if (step.stats)
     declareMeasure(graph, pending);
   else
@@ -145,6 +146,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   pending.control = graph.readback(ref(FluidArray::Control));
   pending.sums = graph.readback(ref(FluidArray::Sums));
   if (setup.loads) pending.loads = graph.readback(ref(FluidArray::SolidLoads));
+  if (!setup.bodies.empty()) pending.bodies = graph.readback(ref(FluidArray::Bodies));
   pending.recorded = recording_;
   pending_.push_back(pending);
   while (pending_.size() > 8) pending_.pop_front();
@@ -153,7 +155,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.velocity = ref(FluidArray::Velocity);
   state.id = ref(FluidArray::Id);
   state.countBuffer = state.control = ref(FluidArray::Control);
-  if (!setup.driven.empty() || !setup.meshWords.empty()) state.solids = ref(FluidArray::Solids);
+  if (!setup.driven.empty() || !setup.meshWords.empty() || !setup.bodies.empty()) state.solids = ref(FluidArray::Solids);
   if (!setup.meshWords.empty()) state.meshWords = ref(FluidArray::MeshWords);
   if (setup.loads) state.loads = ref(FluidArray::SolidLoads);
   return state;

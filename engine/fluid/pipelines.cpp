@@ -42,6 +42,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"MESHES", !setup.meshWords.empty()},
           {"CULL_SOLIDS", p.solidCount > kFewSolids},
           {"LOADS", setup.loads},
+          {"BODIES", !setup.bodies.empty()},
           {"FORCES", hasForces(setup)},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},
@@ -50,6 +51,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           // Where a pass or a variant of it does not say otherwise:
           {"WALKS", false},
           {"NEAR_SOLIDS", false},
+          {"COUNTS", false},
           {"REBUILDS", false}};
 }
 

@@ -29,7 +29,9 @@ constexpr double kMinCfl = 0.01;  // spacings a substep
 // Where walls may be one spacing thick: a substep moves a center by twice that at most, and a solid by it, together not past the wall's
 // middle.
 constexpr double kThinWallCfl = 0.3;
-constexpr uint32_t kLongestBlock = 6;  // substeps
+constexpr double kContactFall = 0.005;  // spacings that bodies fall in a step, at most: contacts give way by a multiple of it
+constexpr double kSeparationRate = 10;  // 1/s: spacings a second by which bodies that overlap come apart, without gravity
+constexpr uint32_t kLongestBlock = 6;   // substeps
 // Spacings: beyond it, positions have lost their meaning: float holds 24 bits.
 constexpr double kFarSpacings = 1.0e6;
 // Entries for what begins and fills the segments of a particle in a corner, but for those that its neighbors leave.
@@ -159,7 +161,8 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   // Without a domain nothing else bounds what the fluid becomes when more is added.
   Double3 extent;
   for (int a = 0; a < 3; ++a) extent[a] = scene.domain ? start.extent[a] : std::max(start.extent[a], cubeEdge(scene, start));
-  const SpeedLimits limits = speedLimits(scene, extent, start.fastest, std::max<double>(p.solidSpeed, fastestDriven(scene)));
+  const SpeedLimits limits =
+      speedLimits(scene, extent, start.fastest, std::max({double{p.solidSpeed}, fastestDriven(scene), fastestBody(scene)}));
   p.warmLimit = f(limits.warm);
   p.minSpeedGain = f(limits.minGain);
   p.maxSpeedGain = f(limits.maxGain);
@@ -236,6 +239,9 @@ void setGravity(const Scene& scene, FluidSetup& setup) {
   setup.params.gravityChanges = static_cast<uint32_t>(setup.gravity.size() / 4);
 }
 
+/// Whether a solid can hold the fluid up; bodies fall with it.
+bool holdsFluid(const Scene& scene) { return scene.solids.size() > bodyCount(scene); }
+
 }  // namespace
 
 double artificialViscosity(const Scene& scene) {
@@ -247,14 +253,14 @@ double artificialViscosity(const Scene& scene) {
 
 double meltingTime(const Scene& scene) {
   const double gravity = strongestGravity(scene);
-  const bool held = hasWalls(scene) || !scene.solids.empty();  // in free fall there is no pressure
+  const bool held = hasWalls(scene) || holdsFluid(scene);  // in free fall there is no pressure
   return held && gravity > 0 ? kMeltingTime * std::sqrt(scene.fluid.spacing / gravity) : 0;
 }
 
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
 
 bool measuresLoads(const Scene& scene) {
-  return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); });
+  return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); }) || bodyCount(scene) > 0;
 }
 
 bool startsWarm(const Scene& scene) { return boundedWarmGain(scene).wanted > 0; }
@@ -314,13 +320,19 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
 
   setWalls(scene, origin, p);
   setup.walls = hasWalls(scene);
-  setup.held = setup.walls || !scene.solids.empty();
+  setup.held = setup.walls || holdsFluid(scene);
   // Where both walls of an axis can be within a support of the centers between them.
   for (int a = 0; a < 3 && scene.domain; ++a) setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * h;
   if (!scene.solids.empty()) addHalfSpaceTable(kernel, setup);
   if (auto added = addSolids(scene, kernel, origin, setup); !added)
     return Error{added.error().kind, (scene.file.empty() ? "" : scene.file.string() + ": ") + added.error().message};
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
+  p.bodyCount = static_cast<uint32_t>(setup.bodies.size());
+  if (const double gravity = strongestGravity(scene); p.bodyCount > 0 && gravity > 0)
+    p.maxStep = std::min(p.maxStep, f(std::sqrt(kContactFall * d / gravity)));
+  p.contactPoints = static_cast<uint32_t>(setup.contactPoints.size());
+  p.bodySpeed = f(fastestBody(scene));
+  p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
   setViscosity(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);
   setGravity(scene, setup);

@@ -22,6 +22,15 @@ inline constexpr size_t kKeyframeNumbers = sizeof(KeyframeRecord) / sizeof(float
 /// Floats of a SolidLoadRecord.
 inline constexpr size_t kLoadNumbers = sizeof(SolidLoadRecord) / sizeof(float);
 
+/// Words of a BodyRecord.
+inline constexpr size_t kBodyWords = sizeof(BodyRecord) / sizeof(uint32_t);
+
+/// Words of a SlipRecord.
+inline constexpr size_t kSlipWords = sizeof(SlipRecord) / sizeof(uint32_t);
+
+/// Times that the contacts of bodies are solved in a substep.
+inline constexpr uint32_t kContactIterations = 4;
+
 /// A solid that the host moves.
 struct DrivenSolid {
   uint32_t solid = 0;
@@ -34,6 +43,8 @@ struct FluidSetup {
   GridSize grid;
   std::vector<float> tables;                             ///< half-space and ball tables: value and slope, then those of the next entry
   std::vector<SolidRecord> solids;                       ///< relative to the particles' origin, at time 0
+  std::vector<BodyRecord> bodies;                        ///< likewise
+  std::vector<ContactPointRecord> contactPoints;         ///< of the bodies, in their order
   std::vector<uint32_t> meshWords;                       ///< the fields of all meshes (mesh_field.h)
   std::vector<float> keyframes;                          ///< KeyframeRecords
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
@@ -50,10 +61,10 @@ struct FluidSetup {
   bool walls = false;                     ///< the domain has a wall
   bool held = false;                      ///< walls or solids can hold the fluid up
   bool thin = false;                      ///< walls that face each other can both be near a particle
-  bool movingSolids = false;
-  bool loads = false;         ///< loads on solids are measured
-  bool mergesPasses = false;  ///< see FluidDesc::mergePasses
-  bool warm = false;          ///< there is a warm start: multipliers and accelerations are kept
+  bool movingSolids = false;              ///< by keyframes, by the host, or bodies
+  bool loads = false;                     ///< loads on solids are measured
+  bool mergesPasses = false;              ///< see FluidDesc::mergePasses
+  bool warm = false;                      ///< there is a warm start: multipliers and accelerations are kept
   std::vector<std::string> warnings;
 };
 
@@ -74,7 +85,7 @@ bool hasWalls(const Scene& scene);
 /// Whether a scene's substeps start from the multipliers of the ones before.
 bool startsWarm(const Scene& scene);
 
-/// Whether a probe needs loads on solids.
+/// Whether a probe or a body needs loads on solids.
 bool measuresLoads(const Scene& scene);
 
 /// The time in which weight makes a liquid of a fill's lattice, s; 0 without gravity, or without walls and solids that hold the fluid.

@@ -1,6 +1,7 @@
 #include "fluid/snapshot.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -43,6 +44,8 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   if (auto right = checkLength("sums", s.sums.size(), sizeof(FluidSums) / 4); !right) return right;
   const uint64_t poses = shape.movingSolids ? uint64_t{kPoseNumbers} * shape.solidCount : 0;
   if (auto right = checkLength("solids", s.solids.size(), poses); !right) return right;
+  if (auto right = checkLength("bodies", s.bodies.size(), uint64_t{kBodyWords} * shape.bodyCount); !right) return right;
+  if (auto right = checkLength("slips", s.slips.size(), uint64_t{kSlipWords} * shape.contactPoints); !right) return right;
   if (!s.loads.empty())  // they may be of no use to the scene that goes on
     if (auto right = checkLength("loads", s.loads.size(), uint64_t{kLoadNumbers} * shape.solidCount); !right) return right;
   const uint32_t count = record<FluidControl>(s.control).count;
@@ -85,6 +88,27 @@ Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const Sn
   }
   std::vector<bool> seen(s.id.size());
   if (!markNew(seen, particles)) return wrong("the list of particles near solids has an index that is out of range or appears twice");
+  return {};
+}
+
+/// Whether a pose and velocities can be gone on with.
+bool valid(const PoseRecord& p) {
+  for (const float number : std::bit_cast<std::array<float, sizeof p / sizeof(float)>>(p))
+    if (!(std::abs(number) < 1e15F)) return false;
+  const float square = p.rotationX * p.rotationX + p.rotationY * p.rotationY + p.rotationZ * p.rotationZ + p.rotationW * p.rotationW;
+  return std::abs(square - 1) < 0.01F;
+}
+
+Expected<void> checkBodies(const FluidSnapshot& s) {
+  for (size_t k = 0; k < s.bodies.size(); k += kBodyWords) {
+    BodyRecord body;
+    std::memcpy(&body, s.bodies.data() + k, sizeof body);
+    if (!valid(body.state) || !valid(body.predicted) || !(body.stiffness >= 0 && body.stiffness < 1e30F))
+      return wrong("the motion of a body is not finite");
+  }
+  for (size_t k = 0; k < s.slips.size(); k += kSlipWords)
+    for (size_t word = 1; word < kSlipWords; ++word)
+      if (!std::isfinite(std::bit_cast<float>(s.slips[k + word]))) return wrong("the slip of a contact of a body is not finite");
   return {};
 }
 
@@ -147,6 +171,8 @@ bool validPhase(const FluidControl& control, const SnapshotShape& shape) {
 SnapshotShape snapshotShape(const FluidSetup& setup) {
   return {setup.params.capacity,
           setup.params.solidCount,
+          setup.params.bodyCount,
+          setup.params.contactPoints,
           setup.params.listCapacity,
           setup.grid.cells(),
           setup.params.initialPressureIterations,
@@ -216,6 +242,7 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (!ids.empty() && ids.back() >= kMaxIds)
     return wrong("its largest id is " + std::to_string(ids.back()) + "; expected less than " + std::to_string(kMaxIds));
   if (auto right = checkNear(snapshot, sums, shape); !right) return right;
+  if (auto right = checkBodies(snapshot); !right) return right;
   return checkNeighbors(snapshot, sums, shape);
 }
 

@@ -14,7 +14,7 @@ inline constexpr uint32_t kMaxIds = 0x7F000000;
 /// What a snapshot must fit.
 struct SnapshotShape {
   uint32_t capacity = 0;  ///< particles at most
-  uint32_t solidCount = 0;
+  uint32_t solidCount = 0, bodyCount = 0, contactPoints = 0;
   uint32_t listCapacity = 0;
   uint64_t cells = 0;                      ///< of the grid
   uint32_t initialPressureIterations = 0;  ///< FluidParams::initialPressureIterations

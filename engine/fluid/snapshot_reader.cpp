@@ -42,7 +42,9 @@ void SnapshotReader::declare(Graph& graph) {
   const auto read = [&](size_t slot) { tickets_.push_back(graph.readback(importWhole(graph, "state", fluid_.slot(slot)))); };
   const uint32_t part = parts_[next_];
   if (part != kRecords) return read(part);
-  for (FluidArray array : {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads}) read(slotOf(array));
+  for (FluidArray array :
+       {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads, FluidArray::Bodies, FluidArray::Slips})
+    read(slotOf(array));
 }
 
 Expected<void> SnapshotReader::take(const Graph& graph) {
@@ -100,6 +102,8 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   snapshot_.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
   snapshot_.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
   if (fluid_.setup.loads) snapshot_.loads = records<float>(data[3], fluid_.setup.params.solidCount * kLoadNumbers);
+  if (fluid_.setup.params.bodyCount > 0) snapshot_.bodies = records<uint32_t>(data[4], fluid_.setup.params.bodyCount * kBodyWords);
+  if (fluid_.setup.params.bodyCount > 0) snapshot_.slips = records<uint32_t>(data[5], fluid_.setup.params.contactPoints * kSlipWords);
   if (!fluid_.setup.movingSolids) return;
   for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount)) appendPose(r.pose, snapshot_.solids);
 }

@@ -47,6 +47,7 @@ void FluidImpl::stageScene() {
   staging_->add(slotOf(FluidArray::GravityChanges), setup.gravity.data(), setup.gravity.size() * 4);
   staging_->add(slotOf(FluidArray::Table), setup.tables.data(), setup.tables.size() * 4);
   staging_->add(slotOf(FluidArray::MeshWords), setup.meshWords.data(), setup.meshWords.size() * 4);
+  staging_->add(slotOf(FluidArray::ContactPoints), setup.contactPoints.data(), setup.contactPoints.size() * sizeof(ContactPointRecord));
   staging_->add(slotOf(FluidArray::Keyframes), setup.keyframes.data(), setup.keyframes.size() * 4);
   staging_->clear(slotOf(FluidArray::NearTangential));
   staging_->clear(slotOf(FluidArray::SolidSums));
@@ -84,6 +85,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
     id[i] = i;
   }
   sums.speedMax = std::bit_cast<uint32_t>(fastest);
+  sums.bodySpeed = std::bit_cast<uint32_t>(setup.params.bodySpeed);
 
   FluidControl control{};
   control.count = count;
@@ -99,6 +101,8 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->add(slotOf(FluidArray::Sums), sizeof sums, bytesOf(std::vector{sums}));
   staging_->add(slotOf(FluidArray::Solids), setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
   staging_->clear(slotOf(FluidArray::SolidLoads));
+  staging_->add(slotOf(FluidArray::Bodies), setup.bodies.data(), setup.bodies.size() * sizeof(BodyRecord));
+  staging_->clear(slotOf(FluidArray::Slips));
   staging_->add(slotOf(FluidArray::Id), id.size() * 4, bytesOf(id));
   staging_->clear(slotOf(FluidArray::Warm));
   staging_->clear(slotOf(FluidArray::WarmAcceleration));
@@ -115,7 +119,21 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
   for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center.begin());
+  std::vector<BodyRecord> bodies = setup.bodies;  // of the snapshot, their states and what the last substep left
+  for (size_t k = 0; k < bodies.size(); ++k) {
+    BodyRecord saved;
+    std::memcpy(&saved, s.bodies.data() + k * kBodyWords, sizeof saved);
+    bodies[k].state = saved.state;
+    bodies[k].predicted = saved.predicted;
+    bodies[k].held = saved.held;
+    bodies[k].stopped = saved.stopped;
+    bodies[k].stiffness = saved.stiffness;
+    solids[bodies[k].solid].freeBody = saved.held == 0;
+  }
   staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
+  takeBodies(std::as_bytes(std::span(bodies)));
+  staging_->add(slotOf(FluidArray::Bodies), bodies.size() * sizeof(BodyRecord), bytesOf(bodies));
+  staging_->add(slotOf(FluidArray::Slips), s.slips.data(), s.slips.size() * sizeof s.slips[0]);
   takeLoads(std::as_bytes(std::span(s.loads)));
   if (setup.loads && !s.loads.empty())
     staging_->add(slotOf(FluidArray::SolidLoads), s.loads.data(), s.loads.size() * sizeof s.loads[0]);

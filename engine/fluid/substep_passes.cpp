@@ -9,6 +9,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   parity_ = parity;
   beginSection();
   declare(graph, FluidPass::MoveSolids, Start::Density);
+  declareBodies(graph);
   for (uint32_t iteration = 0; iteration < setup.params.iterations; ++iteration) {
     const Start start = iteration == 0 ? Start::Density : Start::Iterate;
     const ChunkPush push{0, 0, iteration};
@@ -17,9 +18,11 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
       declare(graph, FluidPass::Pairs, start, push);
       declare(graph, FluidPass::Iterate, start, push);
       declare(graph, FluidPass::SumLoads, start);
+      if (!setup.bodies.empty()) declare(graph, FluidPass::SolidLoads, start, LoadPush{0});
+      declare(graph, FluidPass::MoveBodies, start, LoadPush{0});
     }
     alias(Place, Prediction);
-    declare(graph, FluidPass::DisplaceDensity, start);
+    declare(graph, FluidPass::DisplaceDensity, start, DisplacePush{iteration == 0});
     alias(Particle, Prediction);
     declare(graph, FluidPass::Density, start, DensityPush{0, 0, iteration, parity, first});
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});
@@ -29,8 +32,20 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   declare(graph, FluidPass::Correct, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Collide, Start::Correct);
   declare(graph, FluidPass::SumLoads, Start::Correct);
-  declare(graph, FluidPass::SolidLoads, Start::Correct);
+  declare(graph, FluidPass::SolidLoads, Start::Correct, LoadPush{1});
+  declare(graph, FluidPass::MoveBodies, Start::Correct, LoadPush{1});
   declareForces(graph, first);
+}
+
+// Predicts bodies from velocity, gravity and warm start, then solves their contacts.
+void FluidImpl::declareBodies(Graph& graph) {
+  declare(graph, FluidPass::PredictBodies, Start::Density);
+  declare(graph, FluidPass::TouchedSolids, Start::Density);
+  declare(graph, FluidPass::CountContacts, Start::Density, ContactPush{});
+  for (uint32_t iteration = 0; iteration < kContactIterations; ++iteration) {
+    declare(graph, FluidPass::Contacts, Start::Density, ContactPush{iteration});
+    declare(graph, FluidPass::PushBodies, Start::Density);
+  }
 }
 
 // Forces change velocities only. One pass after all of them predicts positions from the resulting velocities.

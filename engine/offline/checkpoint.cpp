@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied without byte swapping");
 
 constexpr std::string_view kMagic = "RILLCKPT";
-constexpr uint32_t kFormat = 11;
+constexpr uint32_t kFormat = 12;
 constexpr uint64_t kHeaderBytes = 24, kTableEntryBytes = 16, kChecksumBytes = 8;
 
 /// Calls visit(section name, array) for the arrays of the state in the order of the file.
@@ -33,6 +33,8 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("control", s.control);
   visit("sums", s.sums);
   visit("solids", s.solids);
+  visit("bodies", s.bodies);
+  visit("slips", s.slips);
   visit("loads", s.loads);
   forEachSaved([&](const ArrayRow& row, auto member) { visit(row.savedName, s.*member); });
   visit("nearsol", s.nearSolids);

@@ -137,7 +137,7 @@ class Simulation::Impl {
     stats.listBuilds = advanced_.listBuilds;
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
-    stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids);
+    stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies());
     for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, valueOf(probe, reader));
     stats.pictureBoundHits = pictureBoundHits_;
     stats.wall_s = wall_s_;
@@ -221,6 +221,8 @@ class Simulation::Impl {
     const auto solid = static_cast<size_t>(std::ranges::find(scene_.solids, probe.load.empty() ? probe.pose : probe.load, &Solid::name) -
                                            scene_.solids.begin());
     if (probe.load.empty()) {
+      for (const BodyMotion& body : fluid_->bodies())
+        if (body.solid == solid) return PoseValue{body.center, body.rotation, body.velocity, body.angularVelocity};
       const Pose pose = solidPose(scene_.solids[solid], measured_->time_s);
       return PoseValue{pose.center, pose.rotation, pose.velocity, pose.angularVelocity};
     }

@@ -14,6 +14,10 @@ void add(Fnv1a& hash, const Float3& value) {
   for (float number : {value.x, value.y, value.z}) hash.add(std::bit_cast<uint32_t>(number));
 }
 
+void add(Fnv1a& hash, const Double3& value) {
+  for (double number : {value.x, value.y, value.z}) hash.add(std::bit_cast<uint64_t>(number));
+}
+
 }  // namespace
 
 std::vector<uint32_t> orderById(std::span<const uint32_t> ids) {
@@ -29,12 +33,18 @@ std::vector<uint32_t> orderById(std::span<const uint32_t> ids) {
   return order;
 }
 
-uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint32_t> ids) {
+uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint32_t> ids,
+                   std::span<const BodyMotion> bodies) {
   assert(positions.size() == ids.size() && velocities.size() == ids.size());
   Fnv1a hash;
   for (const uint32_t i : orderById(ids)) {
     add(hash, positions[i]);
     add(hash, velocities[i]);
+  }
+  for (const BodyMotion& body : bodies) {
+    for (const Double3& v : {body.center, body.velocity, body.angularVelocity}) add(hash, v);
+    add(hash, Double3{body.rotation.x, body.rotation.y, body.rotation.z});
+    hash.add(std::bit_cast<uint64_t>(body.rotation.w));
   }
   return hash.value();
 }

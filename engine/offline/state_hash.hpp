@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "rill/vectors.hpp"
+#include "rill/fluid.hpp"
 
 namespace rill::offline {
 
@@ -11,7 +11,8 @@ namespace rill::offline {
 std::vector<uint32_t> orderById(std::span<const uint32_t> ids);
 
 /// 64-bit FNV-1a over the bits of position and velocity of each particle in id order, to compare states. `positions`: m, relative to the
-/// scene's origin, as on the device.
-uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint32_t> ids);
+/// scene's origin, as on the device. Then over those of the motion of each body.
+uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint32_t> ids,
+                   std::span<const BodyMotion> bodies = {});
 
 }  // namespace rill::offline

@@ -27,6 +27,10 @@ double shareOfImage(const Shape& shape, const Pose& pose, const glm::dvec3& at, 
 std::vector<Pose> ReferenceSolver::poses(double t, double dt) const {
   std::vector<Pose> all;
   for (const Solid& solid : settings.solids) {
+    if (solid.body) {
+      all.push_back(bodies_.poseOf(all.size()));
+      continue;
+    }
     Pose pose = dt > 0 ? solidPose(solid, t, dt) : solidPose(solid, t);
     for (glm::length_t a = 0; a < 3; ++a) pose.center[a] -= settings.origin[a];
     all.push_back(pose);
@@ -121,9 +125,10 @@ glm::dmat3 ReferenceSolver::pairScale(size_t i, const Pair& pair) const {
 
 /// Moves a center to half a spacing from every surface that is closer: solids in order, walls last, so that no particle ends outside.
 /// Between walls that are less than a spacing apart it is moved to the middle.
-glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, const AddReaction& add) const {
+glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, const AddReaction& add, bool withBodies) const {
   const double clearance = settings.spacing / 2;
   for (size_t n = 0; n < solids.size(); ++n) {
+    if (!withBodies && bodies_.isFree(n)) continue;
     const SurfacePoint surface = surfaceOf(n, solids[n], x);
     if (surface.distance >= clearance) continue;
     const glm::dvec3 by = (clearance - surface.distance) * vec(surface.normal);
@@ -155,12 +160,13 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     const glm::dvec3 relative = v - solid;
     double normal = glm::dot(relative, n);
     glm::dvec3 tangential = relative - normal * n;
-    if (before < 0 && restitution > 0) normal = std::max(normal, -restitution * before);
+    if (before < 0 && restitution > 0 && normal < -restitution * before)
+      normal += bodies_.share(k, x, n) * (-restitution * before - normal);
     glm::dvec3 pressure(0);
     for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) / dt * (pairScale(i, pair) * pair.gradient);
     const double impulse = std::max(0.0, normal - before - glm::dot(pressure, n));
     const double slip = glm::length(tangential);
-    if (slip > 0) tangential *= std::max(0.0, 1 - friction * impulse / slip);
+    if (slip > 0) tangential *= 1 - bodies_.share(k, x, tangential / slip) * std::min(1.0, friction * impulse / slip);
     const glm::dvec3 after = solid + normal * n + tangential;
     add(k, dt * (after - v), x);
     v = after;

@@ -36,6 +36,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.substepsPerBlock = static_cast<int>(setup.substepsPerBlock);
   s.vorticity = scene.fluid.vorticity;
   s.drag = scene.fluid.drag;
+  s.separationSpeed = setup.params.separationSpeed;
   s.minSpeedGain = setup.params.minSpeedGain;
   s.maxSpeedGain = setup.params.maxSpeedGain;
   return s;

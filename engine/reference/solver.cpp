@@ -26,7 +26,9 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
       kernel_(s.kernel, s.smoothingRatio * s.spacing, s.spacing),
       liquidScale_(liquidScale(kernel_)),
       artificial_(kernel_, s.tensile, s.tensileRadius, s.tensilePower),
-      time_(s.startTime) {
+      walls_({s.lo, s.hi, s.spacing / 2}),
+      time_(s.startTime),
+      bodies_(settings.solids, settings.origin, walls_, s.spacing, s.separationSpeed) {
   assert(velocities.empty() || velocities.size() == positions.size());
   const size_t count = positions.size();
   state.position.assign(positions.begin(), positions.end());
@@ -40,10 +42,10 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   lambdaChange_.assign(count, 0);
   delta_.assign(count, 0);
   curl_.assign(count, glm::dvec3(0));
+  rejected_.assign(count, glm::dvec3(0));
   gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
-  walls_ = {settings.lo, settings.hi, settings.spacing / 2};
   for (int a = 0; a < 3; ++a) walls_.margin = std::min(walls_.margin, (settings.hi[a] - settings.lo[a]) / 2);
   if (!settings.solids.empty()) halfSpace_ = makeHalfSpaceTable(kernel_);
   for (const Solid& solid : settings.solids) {
@@ -82,6 +84,7 @@ void ReferenceSolver::solveInitialPressure(double dt, double momentum, int itera
   for (int iteration = 0; iteration < iterations; ++iteration) {
     predictPositions(dt, true);
     density();
+    bodies_.forgetPrediction();
     for (size_t i = 0; i < size(); ++i) {
       const double before = state.warm[i], extrapolated = std::min(0.0, before + momentum * change[i]);
       state.warm[i] = std::min(0.0, extrapolated - omega * (densityRatio_[i] - 1) / denominator_[i]);
@@ -96,17 +99,23 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     if (onStage) onStage(stage);
   };
   const bool first = substeps_++ % settings.substepsPerBlock == 0;
-  impulses_ = warmImpulses_;
+  impulses_ = applied_ = warmImpulses_;
+  rejected_.assign(size(), glm::dvec3(0));
   blockTime_ += dt;
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
+    firstIteration_ = iteration == 0;
     density();
     done(Stage::Density);
     multipliers(iteration == 0);
     done(Stage::Multipliers);
     correction(dt, iteration + 1 == settings.iterations ? push : 0);
     done(Stage::Correction);
+    if (iteration + 1 == settings.iterations) break;
+    addContributions(dt, {});
+    moveBodies(dt);
   }
+  firstIteration_ = true;
   updateRestFactor();
   velocities(dt);
   done(Stage::Velocities);
@@ -167,6 +176,8 @@ void ReferenceSolver::density() {
   denominator_.resize(size());
   boundary_.resize(size());
   boundaryPlace_ = state.predicted;
+  densityPoses_ = solids;
+  if (firstIteration_) bodies_.beginStiffness();
   if (!settings.solids.empty()) scale_.resize(size());
   const double rest = kernel_.restGradientSum(), scale = densityScale();
   for (uint32_t i = 0; i < size(); ++i) {
@@ -185,7 +196,13 @@ void ReferenceSolver::density() {
     densityRatio_[i] = scale * ratio + boundary_[i].value;
     const glm::dmat3 tangential = tangentialScale(i);
     if (!scale_.empty()) scale_[i] = tangential;
-    const double all = glm::dot(sum, tangential * sum) + squares * (tangential[0].x + tangential[1].y + tangential[2].z) / 3;
+    double all = glm::dot(sum, tangential * sum) + squares * (tangential[0].x + tangential[1].y + tangential[2].z) / 3;
+    if (bodies_.any())
+      forEachSample(state.predicted[i], solids, [&](size_t n, const SolidSample& own, const Image& image) {
+        const double root = bodies_.root(n, image.of(state.predicted[i]), vec(own.gradient));
+        all += root * bodies_.stiffness(n);
+        if (firstIteration_) bodies_.addRoot(n, root, mass());
+      });
     denominator_[i] = std::max(all + settings.regularization * rest, kMinDenominator * rest);
   }
 }
@@ -214,7 +231,7 @@ void ReferenceSolver::correction(double dt, double push) {
   push_ = push;
   const std::vector<Pose> solids = poses(time_, dt);
   const AddReaction add = addTo(impulses_, solids, 1 / dt);
-  for (const Contribution& c : std::exchange(contributions_, {})) add(c.solid, c.displacement, c.at);  // of the iteration before
+  addContributions(dt, {});  // of the iteration before
   for (size_t i = 0; i < size(); ++i) {
     const AddReaction later = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { contributions_.push_back({i, n, by, at}); };
     glm::dvec3 sum(0), apart(0);
@@ -228,7 +245,11 @@ void ReferenceSolver::correction(double dt, double push) {
     if (finite(moved)) {
       wallPosition_[i] = collide(moved, {});
       gain_[i] = wallPosition_[i] - state.predicted[i];
-      state.predicted[i] = collide(moved, solids, add);
+      state.predicted[i] = collide(moved, solids, [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) {
+        const double share = bodies_.share(n, at, glm::normalize(by));
+        rejected_[i] += (1 - share) * by;
+        add(n, share * by, at);
+      });
     } else {
       deactivate(i);
     }
@@ -237,8 +258,8 @@ void ReferenceSolver::correction(double dt, double push) {
 
 void ReferenceSolver::velocities(double dt) {
   const std::vector<Pose> solids = poses(time_, dt);
-  const double maxGain =
-      dt * (std::clamp(0.5 * fastest_, settings.minSpeedGain, settings.maxSpeedGain) + 4 * dt * glm::length(settings.gravity));
+  const double maxGain = dt * (std::clamp(std::max(0.5 * fastest_, 5 * bodies_.fastest()), settings.minSpeedGain, settings.maxSpeedGain) +
+                               4 * dt * glm::length(settings.gravity));
   const AddReaction add = addTo(impulses_, solids, 1 / dt);
   std::vector<double> kept(size(), 1);
   fastest_ = 0;  // excludes solids, as in the shaders
@@ -248,7 +269,7 @@ void ReferenceSolver::velocities(double dt) {
     const double removed = 1 - kept[i];
     const glm::dvec3 excess = removed * (gain_[i] + 0.5 * (wallPosition_[i] - gain_[i] - state.position[i]));
     if (finite(wallPosition_[i])) fastest_ = std::max(fastest_, glm::length(wallPosition_[i] - state.position[i] - excess) / dt);
-    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess) / dt, dt, solids, add);
+    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess - rejected_[i]) / dt, dt, solids, add);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
     if (finite(v)) {
@@ -258,9 +279,29 @@ void ReferenceSolver::velocities(double dt) {
       deactivate(i);
     }
   }
-  for (const Contribution& c : std::exchange(contributions_, {})) add(c.solid, kept[c.particle] * c.displacement, c.at);
+  addContributions(dt, kept);
+  moveBodies(dt);
+  bodies_.end(dt);
   time_ += dt;
   step_ = 0;
+}
+
+// `kept`: a factor for each particle; empty: 1.
+void ReferenceSolver::addContributions(double dt, std::span<const double> kept) {
+  const AddReaction add = addTo(impulses_, densityPoses_, 1 / dt);
+  for (const Contribution& c : std::exchange(contributions_, {}))
+    add(c.solid, (kept.empty() ? 1 : kept[c.particle]) * c.displacement, c.at);
+}
+
+void ReferenceSolver::moveBodies(double dt) {
+  if (!bodies_.any()) return;
+  std::vector<Impulse> since = impulses_;
+  for (size_t n = 0; n < since.size(); ++n) {
+    since[n].linear -= applied_[n].linear;
+    since[n].angular -= applied_[n].angular;
+  }
+  applied_ = impulses_;
+  bodies_.react(since, dt);
 }
 
 double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
@@ -316,21 +357,24 @@ void ReferenceSolver::predict(double dt, double dtNext) {
 }
 
 void ReferenceSolver::predictPositions(double dt, bool atRest) {
-  const std::vector<Pose> present = poses(time_, 0), solids = poses(time_, atRest ? 0 : dt);
+  const std::vector<Pose> solids = poses(time_, atRest ? 0 : dt);
   warmImpulses_.assign(settings.solids.size(), {});
-  const AddReaction add = addTo(warmImpulses_, present, 1 / dt), pushed = addTo(warmImpulses_, solids, 1 / dt);
+  const AddReaction add = addTo(warmImpulses_, densityPoses_, 1 / dt), pushed = addTo(warmImpulses_, solids, 1 / dt);
   for (size_t i = 0; i < size(); ++i) {
     const glm::dvec3 v = atRest ? glm::dvec3(0) : state.velocity[i];
     glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);
     for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * (pairScale(i, pair) * pair.gradient);
-    addReactions(i, state.warm[i], present, add);
+    addReactions(i, state.warm[i], densityPoses_, add);
     x += push;
     if (finite(x)) {
-      state.predicted[i] = collide(x, solids, pushed);
+      state.predicted[i] = collide(x, solids, pushed, atRest);  // the density that a free body displaces is enough
     } else {
       deactivate(i);
     }
   }
+  if (!bodies_.any()) return;
+  bodies_.predict(time_, dt, settings.gravity, warmImpulses_, solids, atRest,
+                  [this](size_t n, const Pose& pose, const glm::dvec3& x) { return surfaceOf(n, pose, x); });
 }
 
 void ReferenceSolver::deactivate(size_t i) {

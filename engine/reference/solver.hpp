@@ -28,6 +28,7 @@
 #include <span>
 #include <vector>
 
+#include "reference/bodies.hpp"
 #include "reference/images.hpp"
 #include "rill/scene.hpp"
 #include "shape/pose.hpp"
@@ -39,8 +40,6 @@
 #include "sph/solid_scale.hpp"
 
 namespace rill::reference {
-
-inline glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
 
 /// Pairs closer than kCoincidentDistance h are coincident. Their direction comes from a hash of their ids (shaders/shared/pair_hash.h), the
 /// length of the gradient from distance kCoincidentGradient h, and each correction separates them by kCoincidentDistance h each.
@@ -91,9 +90,11 @@ struct ReferenceSettings {
   int viscositySweeps = 1;                                      ///< n: XSPH sweeps per substep, each with c/n < 1
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
   double drag = 0;                                              ///< 1/s
+  double separationSpeed = 0;                                   ///< m/s, at which bodies that overlap come apart, at most
   double speedLimit = std::numeric_limits<double>::infinity();  ///< largest speed after a substep, m/s
   double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w >= -warmLimit dt^2
-  /// The last correction may add at most clamp(largest speed / 2, minSpeedGain, maxSpeedGain) + 4 g dt to the speed of a particle. m/s.
+  /// The last correction may add at most clamp(half of the largest speed or five times that of a body, minSpeedGain, maxSpeedGain) + 4 g dt
+  /// to the speed of a particle. m/s.
   double minSpeedGain = std::numeric_limits<double>::infinity();
   double maxSpeedGain = std::numeric_limits<double>::infinity();
 };
@@ -150,13 +151,10 @@ class ReferenceSolver {
   void drag(double dt);                    ///< v: dv/dt = -drag v
   void predict(double dt, double dtNext);  ///< w, x*
 
-  /// Impulse and angular impulse of the fluid on a solid in a substep, N s and N m s, about its center; gravity on the solid is not
-  /// included. They are the reaction to what the particle's displacement owes to the solid: its density, collisions
-  /// and contact.
-  struct Impulse {
-    glm::dvec3 linear = {0, 0, 0}, angular = {0, 0, 0};
-  };
-  std::span<const Impulse> impulses() const { return impulses_; }  ///< one per solid, of the last substep
+  /// Impulses of the fluid on the solids in the last substep, about their centers; gravity on a solid is not included. They are the
+  /// reaction to what the particle's displacement owes to the solid: its density, collisions and contact.
+  std::span<const Impulse> impulses() const { return impulses_; }
+  const Bodies& bodies() const { return bodies_; }  ///< the solids that are rigid bodies
 
   /// Called by substep() after each of its stages; empty: not called.
   std::function<void(Stage)> onStage;
@@ -189,11 +187,13 @@ class ReferenceSolver {
  private:
   /// Is called with a displacement of a particle by a solid, and the point that the reaction acts at.
   using AddReaction = std::function<void(size_t solid, const glm::dvec3& displacement, const glm::dvec3& at)>;
-  glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const AddReaction& add = {}) const;
+  glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const AddReaction& add = {}, bool withBodies = true) const;
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses, const AddReaction& add) const;
   void addReactions(size_t i, double multiplier, std::span<const Pose> poses, const AddReaction& add) const;  ///< multiplier times grad B_i
   AddReaction addTo(std::vector<Impulse>& impulses, std::span<const Pose> poses, double factor) const;
-  std::vector<Pose> poses(double t, double dt) const;
+  std::vector<Pose> poses(double t, double dt) const;  ///< of bodies: where they are predicted to be, else where they are
+  void addContributions(double dt, std::span<const double> kept);
+  void moveBodies(double dt);  ///< by the reaction since the last call
   SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
   /// Calls visit(solid, sample, image) with what each solid displaces at each image of x, in the scene's frame and not reflected.
   void forEachSample(const glm::dvec3& x, std::span<const Pose> poses,
@@ -227,8 +227,13 @@ class ReferenceSolver {
   std::vector<glm::dmat3> scale_;  ///< a_i; empty without solids
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
   std::vector<SolidSample> boundary_;
-  std::vector<glm::dvec3> boundaryPlace_;         ///< m, that it is of
+  std::vector<glm::dvec3> boundaryPlace_;  ///< m, that it is of
+  Bodies bodies_;
+  std::vector<Pose> densityPoses_;                ///< that the density is of
   std::vector<Impulse> impulses_, warmImpulses_;  ///< of the present substep; of the prediction of the next one
+  std::vector<Impulse> applied_;                  ///< of impulses_, what has moved bodies
+  std::vector<glm::dvec3> rejected_;              ///< m, the part of pushes by bodies that changes no velocity
+  bool firstIteration_ = true;
   /// A displacement in the last correction, m, before gains are bounded.
   struct Contribution {
     size_t particle, solid;

@@ -94,7 +94,7 @@ void fillSolids(ParticleScene& out, const Scene& scene) {
                           .radius = static_cast<float>(boundingRadius(solid.shape) + shellOf(solid.shape, scene.fluid.spacing)),
                           .firstKey = static_cast<uint32_t>(out.keyframes.size()),
                           .keyCount = static_cast<uint32_t>(keyframes.size()),
-                          .driven = solid.driven > 0});
+                          .driven = solid.driven > 0 || solid.body});
     out.keyframes.insert(out.keyframes.end(), keyframes.begin(), keyframes.end());
   }
 }

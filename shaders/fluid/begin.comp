@@ -35,6 +35,7 @@ void main() {
   gravityAt();
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
   control.speed = uintBitsToFloat(sums.speedMax);
+  control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
   if (control.nextRelaxation == 0.0) setGains();  // the first advance: from then on each substep sets those of the next
   control.desiredStep = plannedStep(control.desiredStep, cflStep(acceleration, control.head));
   bool going = push.advance > 0.0;
@@ -44,7 +45,8 @@ void main() {
     if (push.drivenSpeed > 0.0 && control.nextPhase == kPhaseInitialPressure) setNextPhase(kPhaseAdvancing, 0u);
     if (control.nextPhase == kPhaseInitialPressure) control.nextStep = params.initialPressureStep;
     if (control.warmStep <= 0.0) control.warmStep = control.nextStep;
-    float nextTravel = control.travel + (control.speed + control.solidSpeed + acceleration * control.nextStep) * control.nextStep;
+    float fastest = control.speed + max(control.solidSpeed, control.bodySpeed);
+    float nextTravel = control.travel + (fastest + acceleration * control.nextStep) * control.nextStep;
     if (control.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && control.listState == kListValid)
       control.listState = kListDue;
   }

@@ -18,23 +18,43 @@ READ_UINT(13, meshWord)
 layout(std430, binding = 14) buffer SolidSumsBlock { uint solidSums[]; };
 #include "shared/pose.glsl"
 #include "fluid/solid_sums.glsl"
-bool countsPushes = false;
-void pushedBy(uint k, vec3 x, vec3 by) {
-  if (LOADS && countsPushes) addToSolid(k, by, x);
+layout(std430, binding = 15) readonly buffer BodyBlock { BodyRecord bodies[]; };
+#include "fluid/bodies.glsl"
+
+// The part of a change of a particle's velocity along `direction` that a solid takes the reaction of in one substep: bodies are split
+// between all particles around them (docs/notes/bodies.md). 1 for others.
+float shareOf(uint k, vec3 x, vec3 direction) {
+  if (!BODIES || solids[k].body == kNoBody) return 1.0;
+  BodyRecord b = bodies[solids[k].body];
+  if (b.held != 0u) return 1.0;
+  return 1.0 / (1.0 + 2.0 * params.spacing * sqrt(mobility(b, x, direction)) * b.stiffness);  // beside it |grad B| is about 1 / (2 d)
 }
-#define PUSHED(k, x, by) pushedBy(k, x, by)
+
+bool countsPushes = false;  // whether what pushes a center changes its velocity
+vec3 rejected = vec3(0.0);  // the part of that, m, which changes no velocity
+void pushedBy(uint k, vec3 x, vec3 normal, vec3 by) {
+  if (!countsPushes) return;
+  if (BODIES) {
+    float share = shareOf(k, x, normal);
+    rejected += (1.0 - share) * by;
+    by *= share;
+  }
+  if (LOADS) addToSolid(k, by, x);
+}
+#define PUSHED(k, x, normal, by) pushedBy(k, x, normal, by)
 #include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
 
-// The listed solid nearest to x, which pushed its prediction, and the direction.
+// The listed solid nearest to x, which pushed its prediction, and the direction. Free bodies push no prediction.
 uint nearestSolid(uvec3 near, vec3 x, out vec3 direction) {
   uint nearest = kNoSolid;
   float least = 3.0e38;
   direction = vec3(0.0);
   for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+    if (BODIES && solids[k].freeBody != 0u) continue;
     vec3 normal;
     float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
     if (distance >= least) continue;
@@ -68,12 +88,14 @@ void main() {
     predict(i, near, x, velocity[i].xyz);
     return;
   }
-  vec3 v = velocity[i].xyz + (x - from) / control.step;
+  vec3 gained = (x - from) / control.step;
+  if (BODIES) gained -= rejected / control.step;
+  vec3 v = velocity[i].xyz + gained;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
   // share of the change already.
   float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
-  vec3 given = multiplier * nearDisplaced[i].xyz / control.step + (x - from) / control.step;
+  vec3 given = multiplier * nearDisplaced[i].xyz / control.step + gained;
   if (LOADS && freeVelocity[i].w > 0.0) {
     vec3 direction, at = uintBitsToFloat(work[i].xyz);
     uint pushing = nearestSolid(near, at, direction);
@@ -89,13 +111,18 @@ void main() {
     vec3 relative = v - moving;
     float away = dot(relative, normal);
     vec3 along = relative - away * normal;
-    float impulse = max(0.0, dot(given, normal) + freeVelocity[i].w / control.step);
+    float predicted_ = BODIES && solids[k].freeBody != 0u ? 0.0 : freeVelocity[i].w / control.step;
+    float impulse = max(0.0, dot(given, normal) + predicted_);
     if (before < 0.0 && solids[k].restitution > 0.0 && away < -solids[k].restitution * before) {
-      impulse += -solids[k].restitution * before - away;
-      away = -solids[k].restitution * before;
+      float bounce = -solids[k].restitution * before - away;
+      if (BODIES) bounce *= shareOf(k, x, normal);
+      impulse += bounce;
+      away = BODIES ? away + bounce : -solids[k].restitution * before;
     }
     float slip = length(along);
-    along *= slip > 0.0 ? max(0.0, 1.0 - solids[k].friction * impulse / slip) : 0.0;
+    float stopped = slip > 0.0 ? min(1.0, solids[k].friction * impulse / slip) : 0.0;
+    if (BODIES && slip > 0.0) stopped *= shareOf(k, x, along / slip);
+    along *= 1.0 - stopped;
     vec3 after = moving + along + away * normal;
     if (LOADS) addToSolid(k, control.step * (after - v), x);
     v = after;

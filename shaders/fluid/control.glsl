@@ -74,6 +74,9 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.error = error;
     control.speed = max(uintBitsToFloat(sums.speedMax), 0.0);
     sums.speedMax = 0u;
+    control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
+    sums.bodySpeed = 0u;
+    float solidSpeed = max(control.solidSpeed, control.bodySpeed);
     setGains();
     planNoiseDamping(blockStart);
     control.artificialPressure = min(params.tensileRate * control.step * control.step, params.tensileLimit);
@@ -81,7 +84,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.timeLeft -= control.step;
     control.substeps += 1u;
     addTime(control.step);
-    control.travel += (control.speed + control.solidSpeed) * control.step;
+    control.travel += (control.speed + solidSpeed) * control.step;
     gravityAt();
     float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
     control.desiredStep = plannedStep(tolerableStep(error), cflStep(acceleration, control.head));
@@ -91,7 +94,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
       control.timeLeft = 0.0;
     }
     control.nextStep = control.timeLeft > 0.0 ? fittedStep(control.timeLeft, control.desiredStep) : control.desiredStep;
-    float nextTravel = control.travel + (control.speed + control.solidSpeed + acceleration * control.nextStep) * control.nextStep;
+    float nextTravel = control.travel + (control.speed + solidSpeed + acceleration * control.nextStep) * control.nextStep;
     if (nextTravel > params.travelLimit) control.listState = kListDue;
   }
 

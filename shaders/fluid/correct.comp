@@ -88,7 +88,7 @@ float endSubstep(uint i, uint head) {
   // together: see docs/notes/overlaps.md.
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
-  float maxGain = control.step * (clamp(0.5 * control.speed, params.minSpeedGain, params.maxSpeedGain) +
+  float maxGain = control.step * (clamp(max(0.5 * control.speed, 5.0 * control.bodySpeed), params.minSpeedGain, params.maxSpeedGain) +
                                   4.0 * control.step * sqrt(dot(gravity(), gravity())));
   float kept = min(1.0, maxGain / max(gain, 1.0e-20));
   // clamping deep overlaps also dissipates energy

@@ -22,10 +22,11 @@ layout(std430, binding = 9) writeonly buffer WorkBlock { uvec4 work[]; };
 READ_NEAR_DISPLACED(10)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
 READ_NEAR_TANGENTIAL(12)
+READ_FLOAT(13, nearStiffness)
 #ifdef MERGED
-layout(std430, binding = 13) readonly buffer ShapeBlock { uint shapes[]; };
-layout(std430, binding = 14) coherent buffer CommandBlock { uint commands[]; };
-layout(std430, binding = 15) readonly buffer GravityBlock { vec4 gravityChanges[]; };
+layout(std430, binding = 14) readonly buffer ShapeBlock { uint shapes[]; };
+layout(std430, binding = 15) coherent buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 16) readonly buffer GravityBlock { vec4 gravityChanges[]; };
 #endif
 
 vec3 here;
@@ -61,6 +62,7 @@ float updateMultiplier(uint i, uint head) {
 
   float constraint = isActive(here) ? rho - 1.0 : -1.0;  // inactive particles coincide; exclude them from the error
   float stiffness = stiffnessAtSolids(solids, gradientSum, gradientSquares, params.regularization);
+  if (BODIES && (head & kNearSolidsBit) != 0u) stiffness += nearStiffnessAt(i);
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
 

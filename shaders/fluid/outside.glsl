@@ -6,9 +6,9 @@
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
-// PUSHED(k, x, by), if defined, is called where solid k moves a center from x.
+// PUSHED(k, x, normal, by), if defined, is called where solid k moves a center from x.
 #ifndef PUSHED
-#define PUSHED(k, x, by)
+#define PUSHED(k, x, normal, by)
 #endif
 
 // Moves a center out of the solids `near` it, where each will be `ahead` seconds from now, walls last.
@@ -16,12 +16,13 @@
 vec3 outside(vec3 x, uvec3 near, float ahead, out float pushed) {
   pushed = 0.0;
   for (uint n = 0u, k; nextSolid(near, n, k); ++n) {
+    if (BODIES && ahead > 0.0 && solids[k].freeBody != 0u) continue;  // the density that a free body displaces is enough
     PoseRecord pose = later(solids[k].pose, ahead);
     vec3 normal;
     float distance = surfaceDistance(solids[k].shape, localPoint(pose, x), normal);
     if (distance < params.margin) {
-      vec3 by = toScene(pose, normal) * (params.margin - distance);
-      PUSHED(k, x, by);
+      vec3 outward = toScene(pose, normal), by = outward * (params.margin - distance);
+      PUSHED(k, x, outward, by);
       x += by;
       pushed += params.margin - distance;
     }

@@ -1,4 +1,4 @@
-// Adds displacements that solids give particles to the sums of the solids (shared/solid_loads.h). Needs `params`, shared/pose.glsl,
+// The sums of solids (shared/solid_loads.h): adds what solids displace particles by, and takes the sums. Needs `params`, shared/pose.glsl,
 // and the storage arrays `solids` and `solidSums`.
 #ifndef RILL_SOLID_SUMS_GLSL
 #define RILL_SOLID_SUMS_GLSL
@@ -28,6 +28,26 @@ void toUnits(uint k, vec3 displacement, vec3 at, out float units[kLoadComponents
     units[a] = linear[a];
     units[a + 3] = angular[a];
   }
+}
+
+// The sum at `word`, in units; it begins anew.
+float takeSum(uint word) {
+  uint low = solidSums[word], high = solidSums[word + 1u];
+  solidSums[word] = 0u;
+  solidSums[word + 1u] = 0u;
+  bool negative = high >= 0x80000000u;
+  if (negative) {
+    low = ~low + 1u;
+    high = ~high + uint(low == 0u);
+  }
+  float size = float(high) * 4294967296.0 + float(low);
+  return negative ? -size : size;
+}
+
+// m, or m^2 of a moment, from units. In an order in which no product is denormal.
+float toDisplacement(uint component, float units) {
+  float displacement = units * kDisplacementUnits * params.spacing;
+  return component < 3u ? displacement : displacement * params.loadLever;
 }
 
 void addToSolid(uint k, vec3 displacement, vec3 at) {

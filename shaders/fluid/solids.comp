@@ -1,6 +1,6 @@
 #version 460
 // The density that solids, and their images behind walls, displace near a particle, and its gradient, from
-// the tables of engine/sph/solid_density.hpp; and the tangential scale from their coverage (solid_coverage.glsl).
+// the tables of engine/sph/solid_density.hpp; the tangential scale from their coverage (solid_coverage.glsl); and the stiffness of bodies.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/images.glsl"
@@ -14,6 +14,7 @@ READ_UINT(9, meshWord)
 #include "fluid/solid_coverage.glsl"
 layout(local_size_x = kFluidGroup) in;
 
+layout(push_constant) uniform Push { DisplacePush push; };
 READ_FLOAT4(2, place)
 READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
@@ -23,6 +24,24 @@ layout(std430, binding = 7) writeonly buffer DisplacedBlock { vec4 nearDisplaced
 layout(std430, binding = 8) writeonly buffer TangentialBlock { vec4 nearTangential[]; };
 
 #include "fluid/solid_density.glsl"
+layout(std430, binding = 10) readonly buffer BodyBlock { BodyRecord bodies[]; };
+layout(std430, binding = 11) writeonly buffer StiffnessBlock { float nearStiffness[]; };
+layout(std430, binding = 12) buffer SolidSumsBlock { uint solidSums[]; };
+#include "fluid/bodies.glsl"
+#include "fluid/solid_sums.glsl"
+
+// What a body adds to D of a particle at x, where it displaces `gradient`: see docs/notes/bodies.md. Adds the particle to the sum that the
+// next substep takes.
+float stiffnessOf(uint k, vec3 gradient, vec3 x) {
+  if (solids[k].body == kNoBody) return 0.0;
+  BodyRecord b = bodies[solids[k].body];
+  float root = sqrt(mobility(b, x, gradient));
+  int high;
+  uint low;
+  split(root * params.spacing * sqrt(b.mass) / kDisplacementUnits, high, low);
+  if (push.sumsStiffness != 0u) addWide(k * kSolidSumWords + kStiffnessSum, high, low);
+  return b.held != 0u ? 0.0 : root * b.stiffness;
+}
 
 void main() {
   uint n = flatInvocation();
@@ -32,12 +51,15 @@ void main() {
   vec3 x = placeAt(i).xyz;
   SolidCoverage coverage = SolidCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = vec4(0.0);
+  float stiffness = 0.0;
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
-      vec4 solid = shareOfImage(solids[k], image) * solidSample(solids[k], image) * vec4(signs, 1.0);
+      vec4 solid = shareOfImage(solids[k], image) * solidSample(solids[k], image);
+      if (BODIES) stiffness += stiffnessOf(k, solid.xyz, image);
+      solid.xyz *= signs;
       displaced += solid;
       cover(coverage, solid.w, solid.xyz);
     }
@@ -45,4 +67,5 @@ void main() {
   } LOOP_END(more);
   nearDisplaced[i] = displaced;
   nearTangential[i] = packSolidScale(coverage);
+  if (BODIES) nearStiffness[i] = stiffness;
 }

@@ -1,6 +1,7 @@
 // What the fluid solver's C++ and shaders share.
 #ifndef RILL_FLUID_RECORDS_H
 #define RILL_FLUID_RECORDS_H
+#include "shared/body_records.h"
 #include "shared/interop.h"
 #include "shared/neighbor_list.h"
 #include "shared/solid_loads.h"
@@ -60,6 +61,10 @@ struct FluidParams {
   uint listCapacity;      // entries that the list holds a particle, a multiple of 4; 0: no list
   uint chunkParticles;    // particles a list buffer, a multiple of kListBlock
   uint solidCount;
+  uint bodyCount;         // solids that are rigid bodies
+  uint contactPoints;     // of all bodies
+  float bodySpeed;        // m/s, the fastest point of a body at the start
+  float separationSpeed;  // m/s, at which bodies that overlap come apart, at most
   float spacing;          // m
   float support;          // m, the kernel's support radius h
   float inverseSupport;   // 1/m
@@ -169,7 +174,8 @@ struct FluidControl {
   float blockTime;     // s since the last substep that was the first of its block
   uint phase, nextPhase;  // of the substep that control.glsl has accounted for last, and of the next, as with step and nextStep
   uint phaseLeft;      // substeps of the next phase left, at most; 0 while time advances
-  float solidSpeed;    // m/s, the fastest solid of the advance
+  float solidSpeed;    // m/s, the fastest solid of the advance, but for bodies
+  float bodySpeed;     // m/s, the fastest point of a body
   // Since the start, what prepares it too: for the host, which takes differences. The noise damping
   // pass runs in the first substeps of blocks.
   uint executedSubsteps, executedIterations, executedBuilds, executedNoiseDampings;
@@ -184,6 +190,7 @@ struct FluidSums {
   uint overflow;             // particles with more entries than the list holds, at the last build
   uint boundHits;            // loops cut at their bound since the start
   uint nearSolids;           // particles near a solid, at the last build
+  uint bodySpeed;            // bits of the largest speed of a body's points
   // of the active particles inside the domain, at the last build: how many, and of their places
   // above its lower bounds, in spacings over kColumnUnits, the least, the largest and the 64-bit sum
   uint columnCountX, columnCountY, columnCountZ;
@@ -234,6 +241,18 @@ RILL_CONST uint kMeasureShare = 64u;                  // particles of an invocat
 struct MeasureResult {
   MeasurePartial sums;
   float compression99, signedMedian;
+};
+
+struct DisplacePush {
+  uint sumsStiffness;  // 1: of bodies, for the next substep
+};
+
+struct LoadPush {
+  uint ends;           // 1: the last iteration of a substep
+};
+
+struct ContactPush {
+  uint iteration;      // 0 is the first
 };
 
 struct SweepPush {

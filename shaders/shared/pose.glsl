@@ -10,6 +10,7 @@ vec4 composed(vec4 a, vec4 b) { return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.
 
 vec3 centerOf(PoseRecord p) { return vec3(p.centerX, p.centerY, p.centerZ); }
 vec4 rotationOf(PoseRecord p) { return vec4(p.rotationX, p.rotationY, p.rotationZ, p.rotationW); }
+vec3 velocityOf(PoseRecord p) { return vec3(p.velocityX, p.velocityY, p.velocityZ); }
 vec3 angularVelocity(PoseRecord p) { return vec3(p.angularX, p.angularY, p.angularZ); }
 
 PoseRecord poseOf(vec3 center, vec4 rotation, vec3 velocity, vec3 angular) {
@@ -24,23 +25,19 @@ vec3 localPoint(PoseRecord p, vec3 x) { return toSolid(p, x - centerOf(p)); }
 
 // Of the point of the solid that is at x, m/s.
 vec3 velocityAt(PoseRecord p, vec3 x) {
-  return vec3(p.velocityX, p.velocityY, p.velocityZ) + cross(angularVelocity(p), x - centerOf(p));
+  return velocityOf(p) + cross(angularVelocity(p), x - centerOf(p));
 }
 
-// The pose `seconds` later, at the same velocities. tan(a) = a + a^3 / 3 of half the angle, for the small angles of a step.
-PoseRecord later(PoseRecord p, float seconds) {
-  p.centerX += seconds * p.velocityX;
-  p.centerY += seconds * p.velocityY;
-  p.centerZ += seconds * p.velocityZ;
-  vec3 half_ = 0.5 * seconds * angularVelocity(p);
+// A rotation, then that by a rotation vector: tan(a) = a + a^3 / 3 of half the angle, for the small angles of a step.
+vec4 turned(vec4 q, vec3 turn) {
+  vec3 half_ = 0.5 * turn;
   float square = dot(half_, half_);
-  if (square > 0.0) {
-    vec4 q = normalize(composed(vec4(half_ * (1.0 + square / 3.0), 1.0), rotationOf(p)));
-    p.rotationX = q.x;
-    p.rotationY = q.y;
-    p.rotationZ = q.z;
-    p.rotationW = q.w;
-  }
-  return p;
+  return square > 0.0 ? normalize(composed(vec4(half_ * (1.0 + square / 3.0), 1.0), q)) : q;
+}
+
+// The pose `seconds` later, at the same velocities.
+PoseRecord later(PoseRecord p, float seconds) {
+  vec3 v = velocityOf(p), w = angularVelocity(p);
+  return poseOf(centerOf(p) + seconds * v, turned(rotationOf(p), seconds * w), v, w);
 }
 #endif

@@ -9,10 +9,12 @@ RILL_CONST uint kLoadComponents = 6u;
 
 // Sums of a solid over the particles near it, in 64-bit integers of two words, the low one first, so that their order does not matter:
 // displacements that the solid gives particles in a substep, in kDisplacementUnits of the spacing, and their moments about its center,
-// in these times FluidParams::loadLever. First those of the solve, then those of the warm start, which the next substep applies.
+// in these times FluidParams::loadLever. First those of the solve, then those of the warm start, which the next substep applies. Last, of
+// bodies, the stiffness of BodyRecord, in kDisplacementUnits of m / (spacing sqrt(mass)).
 RILL_CONST uint kSolveSums = 0u;
 RILL_CONST uint kWarmSums = 2u * kLoadComponents;
-RILL_CONST uint kSolidSumWords = 4u * kLoadComponents;
+RILL_CONST uint kStiffnessSum = 4u * kLoadComponents;
+RILL_CONST uint kSolidSumWords = 4u * kLoadComponents + 2u;
 RILL_CONST float kDisplacementUnits = 1.0f / 1099511627776.0f;  // 2^-40
 RILL_CONST float kMaxDisplacement = 8.0f;                       // spacings: what one particle adds, at most
 
@@ -23,6 +25,8 @@ struct SolidLoadRecord {
   float impulseLow[kLoadComponents];
   float advance[kLoadComponents];      // of the present advance
   float advanceTime;                   // s, likewise
+  float solve[kLoadComponents];        // N s and N m s, of the solve of the last substep
+  float stiffness;                     // kStiffnessSum of the last substep, times kDisplacementUnits
   float warm[kLoadComponents];         // N and N m, of the warm start: the next substep applies it
 };
 

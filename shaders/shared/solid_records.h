@@ -38,10 +38,14 @@ struct SolidRecord {
   PoseRecord base;             // before any motion; of a driven solid its center is 0
   uint firstKey, keyCount;     // entries of the keyframe buffer
   uint driven;                 // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
+  uint body;                   // index of its BodyRecord, or kNoBody
+  uint freeBody;               // 1: a body that is free to move in the present substep
   uint tableOffset;            // sphere: entries into the table buffer
   uint tableNodes;
   float tableFirst;            // sphere: signed distance of the table's first node, m
 };
+
+RILL_CONST uint kNoBody = 0xffffffffu;
 
 // A particle near solids, and up to kListedSolids of them by increasing index, two a word, the first in the low half; kNoSolid after the
 // last. kAllSolids as the first: any solid may be near.

@@ -45,7 +45,7 @@ class LoadsTest : public FluidTest {
   /// Impulses since the start, on the device and of the reference.
   void expectReferenceLoads(const Trial& t, int substeps, double limit) {
     Oracle oracle(t);
-    std::vector<reference::ReferenceSolver::Impulse> sums(t.scene.solids.size());
+    std::vector<reference::Impulse> sums(t.scene.solids.size());
     for (int n = 0; n < substeps; ++n) {
       oracle.advance(1);
       for (size_t k = 0; k < sums.size(); ++k) {

@@ -54,6 +54,16 @@ struct SolidLoad {
   Double3 impulse = {0, 0, 0}, angularImpulse = {0, 0, 0};  ///< since the start, N s and N m s
 };
 
+/// Where a body is and how fast it moves, in the scene.
+struct BodyMotion {
+  uint32_t solid = 0;                   ///< index among the scene's solids
+  bool stopped = false;                 ///< for good: it moved farther than positions can be told apart, or its motion was not finite
+  Double3 center = {0, 0, 0};           ///< of mass, m
+  Quaternion rotation = {0, 0, 0, 1};   ///< unit quaternion x y z w, from the solid's frame to the scene's
+  Double3 velocity = {0, 0, 0};         ///< of the center of mass, m/s
+  Double3 angularVelocity = {0, 0, 0};  ///< rad/s
+};
+
 /// Device memory of a Fluid, bytes.
 struct FluidMemory {
   uint64_t particleBytes = 0;  ///< per-particle arrays without the neighbor list
@@ -120,6 +130,13 @@ struct FluidProgress {
   uint32_t listBuilds = 0;   ///< neighbor list builds in the advance
 };
 
+/// Sums over the bodies of a scene.
+struct BodyFigures {
+  double kinetic_J = 0, potential_J = 0;  ///< potential: 0 at the origin, as that of the fluid
+  Double3 momentum = {0, 0, 0};           ///< kg m/s
+  uint64_t stopped = 0;                   ///< bodies; see BodyMotion::stopped
+};
+
 /// Statistics at one time. Sums are evaluated in a fixed order, so they are deterministic.
 struct FluidStats {
   double time_s = 0;  ///< simulated time
@@ -130,15 +147,16 @@ struct FluidStats {
   double densityErrorMean = 0, densityErrorP99 = 0, densityErrorMax = 0;  ///< max(rho / rho0 - 1, 0)
   double densitySignedMedian = 0;  ///< median of rho / rho0 - 1 over particles with a full neighborhood
   double kinetic_J = 0, potential_J = 0;
-  Double3 momentum = {0, 0, 0};         ///< kg m/s
-  Double3 centerOfMass = {0, 0, 0};     ///< m
-  double maxSpeed = 0;                  ///< m/s
-  uint64_t nonFinite = 0;               ///< particles made inactive since the start because a value was not finite
-  uint64_t outside = 0;                 ///< particles beyond a closed wall, or that left through an open side
-  uint64_t neighborOverflow = 0;        ///< particles that exceeded the list capacity at the last build and search the grid instead
-  uint64_t loopBoundHits = 0;           ///< times that a shader loop reached its iteration limit since the start
-  uint32_t listBuilds = 0;              ///< neighbor list builds in the last advance
-  double artificialViscosity_Pa_s = 0;  ///< what solver.artificial_viscosity adds to the shortest waves now, Pa s, before its bound
+  Double3 momentum = {0, 0, 0};            ///< kg m/s
+  Double3 centerOfMass = {0, 0, 0};        ///< m
+  double maxSpeed = 0;                     ///< m/s
+  uint64_t nonFinite = 0;                  ///< particles made inactive since the start because a value was not finite
+  uint64_t outside = 0;                    ///< particles beyond a closed wall, or that left through an open side
+  uint64_t neighborOverflow = 0;           ///< particles that exceeded the list capacity at the last build and search the grid instead
+  uint64_t loopBoundHits = 0;              ///< times that a shader loop reached its iteration limit since the start
+  uint32_t listBuilds = 0;                 ///< neighbor list builds in the last advance
+  std::optional<BodyFigures> bodies = {};  ///< if the scene has some; they are in no other figure
+  double artificialViscosity_Pa_s = 0;     ///< what solver.artificial_viscosity adds to the shortest waves now, Pa s, before its bound
 };
 
 /// How often a pass that the device can skip was recorded and executed; the difference were empty dispatches.
@@ -175,6 +193,10 @@ class RILL_API Fluid {
   /// Loads on the solids after the last finished frame; before the first, zeros or those of the snapshot. Empty unless loads are
   /// measured. Valid until the fluid is moved or destroyed; the next call that reads results may change the values.
   std::span<const SolidLoad> solidLoads() const;
+
+  /// Motion of the bodies, in the order of the solids, after the last finished frame. Valid until the fluid is moved or destroyed; the
+  /// next call that reads results may change the values.
+  std::span<const BodyMotion> bodies() const;
 
   /// Center of a driven solid at the end of the last declared advance, m: the target, or a point on the path to it if the target was too
   /// far. NaN for a solid that is not driven.

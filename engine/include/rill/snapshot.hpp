@@ -41,6 +41,8 @@ struct FluidSnapshot {
   std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
   std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
   std::vector<float> solids = {};      ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
+  std::vector<uint32_t> bodies = {};   ///< BodyRecord (body_records.h) of each body, word by word
+  std::vector<uint32_t> slips = {};    ///< SlipRecord of each contact point of the bodies, word by word
   std::vector<float> loads = {};       ///< SolidLoadRecord (solid_loads.h) of each solid, word by word; empty unless loads are measured
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Warm start; empty without one.

@@ -1,0 +1,314 @@
+#include "reference/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+#include "fluid/settings.hpp"
+#include "shape/mass.hpp"
+
+namespace rill::reference {
+namespace {
+
+Double3 triple(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// 1 along the axes that are free of three bits of a mask.
+glm::dvec3 freeAxes(unsigned locked) {
+  glm::dvec3 axes(0);
+  for (int a = 0; a < 3; ++a) axes[a] = (locked >> a & 1U) == 0 ? 1 : 0;
+  return axes;
+}
+
+glm::dquat turned(const glm::dquat& q, const glm::dvec3& turn) {
+  const double angle = glm::length(turn);
+  return angle > 0 ? glm::normalize(glm::angleAxis(angle, turn / angle) * q) : q;
+}
+
+glm::dvec3 tangential(const glm::dvec3& v, const glm::dvec3& normal) { return v - glm::dot(v, normal) * normal; }
+
+}  // namespace
+
+Bodies::Bodies(const std::vector<Solid>& solids, const glm::dvec3& origin, const Walls& walls, double spacing, double separationSpeed)
+    : solids_(solids), walls_(walls), spacing_(spacing), separationSpeed_(separationSpeed), indexOf_(solids.size(), -1) {
+  for (size_t n = 0; n < solids.size(); ++n) {
+    const Solid& solid = solids[n];
+    if (!solid.body) continue;
+    indexOf_[n] = static_cast<int>(bodies_.size());
+    const MassProperties m = massOf(solid);
+    const Pose pose = solidPose(solid, 0);
+    const auto& i = m.inertia;
+    RigidBody body{.solid = n,
+                   .mass = m.mass,
+                   .from = solid.body->from,
+                   .radius = radiusAbout(solid.shape, m.center),
+                   .offset = vec(m.center),
+                   .inertia = {i[0], i[5], i[4], i[5], i[1], i[3], i[4], i[3], i[2]},
+                   .locked = solid.body->locked,
+                   .points = contactPoints(solid.shape),
+                   .held = solid.body->from > 0};
+    body.slips.resize(body.points.size());
+    body.state.rotation = {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z};
+    body.state.center = vec(pose.center) + body.state.rotation * body.offset - origin;
+    body.state.velocity = vec(solid.body->velocity);
+    body.state.angularVelocity = vec(solid.body->angular_velocity);
+    body.predicted = body.state;
+    bodies_.push_back(std::move(body));
+  }
+  findFastest();
+}
+
+void Bodies::findFastest() {
+  fastest_ = 0;
+  for (const RigidBody& body : bodies_)
+    fastest_ = std::max(
+        fastest_, glm::length(body.state.velocity) + boundingRadius(solids_[body.solid].shape) * glm::length(body.state.angularVelocity));
+}
+
+Pose Bodies::poseOf(const RigidBody& body, const BodyMotion& m) const {
+  const glm::dvec3 toCenter = -(m.rotation * body.offset), center = m.center + toCenter,
+                   velocity = m.velocity + glm::cross(m.angularVelocity, toCenter);
+  return {.center = triple(center),
+          .rotation = {m.rotation.x, m.rotation.y, m.rotation.z, m.rotation.w},
+          .velocity = triple(velocity),
+          .angularVelocity = triple(m.angularVelocity)};
+}
+
+Pose Bodies::poseOf(size_t solid) const { return poseOf(bodies_[index(solid)], bodies_[index(solid)].predicted); }
+
+Impulse Bodies::aboutMass(const RigidBody& body, const Impulse& impulse) const {
+  return {impulse.linear, impulse.angular - glm::cross(body.predicted.rotation * body.offset, impulse.linear)};
+}
+
+namespace {
+
+/// Without the rotations that are locked.
+glm::dmat3 inverseInertia(const glm::dmat3& inertia, FreedomMask locked) {
+  const glm::dvec3 turns = freeAxes(locked >> 3U);
+  glm::dmat3 kept(1);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) kept[i][j] = turns[i] * turns[j] * inertia[i][j] + (i == j ? 1 - turns[i] : 0);
+  glm::dmat3 inverted = glm::inverse(kept);
+  for (int i = 0; i < 3; ++i) inverted[i] *= turns[i] * turns;
+  return inverted;
+}
+
+glm::dmat3 inertiaAt(const glm::dmat3& inertia, const glm::dquat& rotation) {
+  const glm::dmat3 r = glm::mat3_cast(rotation);
+  return r * inertia * glm::transpose(r);
+}
+
+}  // namespace
+
+// `impulse`: times dt, about the center of mass.
+void Bodies::push(RigidBody& body, const Impulse& impulse, double dt) {
+  BodyMotion& m = body.predicted;
+  const glm::dvec3 by = freeAxes(body.locked) * impulse.linear / body.mass,
+                   turn = inverseInertia(inertiaAt(body.inertia, m.rotation), body.locked) * impulse.angular;
+  m.center += by;
+  m.rotation = turned(m.rotation, turn);
+  m.velocity += by / dt;
+  m.angularVelocity += turn / dt;
+}
+
+double Bodies::mobility(const RigidBody& body, const glm::dvec3& at, const glm::dvec3& direction) const {
+  const glm::dvec3 turn = glm::cross(at - body.predicted.center, direction);
+  return glm::dot(direction, freeAxes(body.locked) * direction) / body.mass +
+         glm::dot(turn, inverseInertia(inertiaAt(body.inertia, body.predicted.rotation), body.locked) * turn);
+}
+
+void Bodies::predict(double time, double dt, const glm::dvec3& gravity, std::span<const Impulse> warm, std::vector<Pose> poses, bool atRest,
+                     Surface surface) {
+  surface_ = std::move(surface);
+  for (RigidBody& body : bodies_) {
+    body.held = time < body.from;
+    body.predicted = body.state;
+    BodyMotion& m = body.predicted;
+    if (atRest || body.held) m.velocity = m.angularVelocity = glm::dvec3(0);
+    if (body.held) continue;
+    const Impulse impulse = aboutMass(body, warm[body.solid]);
+    m.velocity += freeAxes(body.locked) * (dt * gravity + impulse.linear / body.mass);
+    const glm::dvec3 momentum = inertiaAt(body.inertia, m.rotation) * m.angularVelocity + impulse.angular;
+    glm::dvec3 w = inverseInertia(inertiaAt(body.inertia, m.rotation), body.locked) * momentum;
+    w = inverseInertia(inertiaAt(body.inertia, turned(m.rotation, dt * w)), body.locked) * momentum;
+    m.angularVelocity = w;
+    m.center += dt * m.velocity;
+    m.rotation = turned(m.rotation, dt * w);
+  }
+  atRest_ = atRest;
+  poses_ = std::move(poses);
+  for (const RigidBody& body : bodies_) poses_[body.solid] = poseOf(body, body.predicted);
+  findTouched();
+  countContacts(dt);
+  for (uint32_t iteration = 0; iteration < kContactIterations; ++iteration) solveContacts(dt, glm::length(gravity), iteration == 0);
+  surface_ = {};
+}
+
+void Bodies::findTouched() {
+  for (RigidBody& body : bodies_) {
+    body.touched.clear();
+    const double reach = body.radius + contactMargin();
+    for (size_t k = 0; k < solids_.size(); ++k)
+      if (k != body.solid && surface_(k, poses_[k], body.predicted.center).distance <= reach) body.touched.push_back(k);
+  }
+}
+
+Bodies::Partner Bodies::partnerOf(size_t solid, const glm::dvec3& at, double dt) const {
+  const glm::dvec3 velocity = vec(velocityAt(poses_[solid], triple(at)));
+  Partner partner{.name = static_cast<int>(solid),
+                  .friction = solids_[solid].friction,
+                  .restitution = solids_[solid].restitution,
+                  .moved = dt * velocity,
+                  .before = velocity};
+  if (!isFree(solid)) return partner;
+  const RigidBody& body = bodies_[index(solid)];
+  partner.body = indexOf_[solid];
+  partner.before = atRest_ ? glm::dvec3(0) : body.state.velocity + glm::cross(body.state.angularVelocity, at - body.predicted.center);
+  return partner;
+}
+
+double Bodies::compliance(const Partner& partner, const glm::dvec3& at, const glm::dvec3& direction) const {
+  if (partner.body < 0) return 0;
+  const RigidBody& body = bodies_[static_cast<size_t>(partner.body)];
+  const double w = mobility(body, at, direction);
+  return w > 1e-6 / body.mass ? std::max(body.contacts, 1) * w : 0;
+}
+
+void Bodies::forEachContact(const RigidBody& body, const ContactPoint& point, double margin, double dt,
+                            const std::function<void(const Contact&)>& visit) const {
+  const Pose& pose = poses_[body.solid];
+  const glm::dvec3 center = vec(pose.center) + vec(toScene(pose, point.center));
+  const auto touch = [&](const Partner& own, const Partner& other, const glm::dvec3& at, const glm::dvec3& normal, double depth) {
+    if (own.body >= 0 || other.body >= 0) visit({own, other, at, normal, depth});
+  };
+  for (int side = 0; side < 6; ++side) {
+    const int a = side / 2;
+    const bool upper = side % 2 == 1;
+    const double depth = point.radius - (upper ? walls_.hi[a] - center[a] : center[a] - walls_.lo[a]);
+    if (!(depth > -margin)) continue;
+    glm::dvec3 normal(0);
+    normal[a] = upper ? -1 : 1;
+    const glm::dvec3 at = center - point.radius * normal;
+    const Partner own = partnerOf(body.solid, at, dt);
+    touch(own, {.name = static_cast<int>(solids_.size()) + side, .friction = own.friction}, at, normal, depth);
+  }
+  for (const size_t k : body.touched) {
+    const SurfacePoint surface = surface_(k, poses_[k], center);
+    const double depth = point.radius - surface.distance;
+    if (!(depth > -margin)) continue;
+    const glm::dvec3 at = center - point.radius * vec(surface.normal);
+    touch(partnerOf(body.solid, at, dt), partnerOf(k, at, dt), at, vec(surface.normal), depth);
+  }
+}
+
+void Bodies::countContacts(double dt) {
+  for (RigidBody& body : bodies_) body.contacts = 0;
+  for (RigidBody& body : bodies_)
+    for (size_t p = 0; p < body.points.size(); ++p) {
+      const Slip last = body.slips[p];
+      Slip next;
+      bool persists = false;
+      forEachContact(body, body.points[p], contactMargin(), dt, [&](const Contact& c) {
+        for (const Partner& partner : {c.own, c.other})
+          if (partner.body >= 0) ++bodies_[static_cast<size_t>(partner.body)].contacts;
+        if (persists) return;
+        persists = last.partner == c.other.name && advanced_;
+        glm::dvec3 slipped(0);
+        if (persists) {
+          slipped = tangential(last.slipped + lastStep_ * (c.own.before - c.other.before), c.normal);
+          const double size = glm::length(slipped);
+          if (size > last.limit) slipped *= last.limit / size;
+        }
+        next = {c.other.name, slipped, 0};
+      });
+      body.slips[p] = next;
+    }
+}
+
+void Bodies::solveContacts(double dt, double gravity, bool first) {
+  std::vector<Impulse> sums(bodies_.size());
+  const auto add = [&](const Partner& partner, const glm::dvec3& impulse, const glm::dvec3& at) {
+    if (partner.body < 0) return;
+    const auto n = static_cast<size_t>(partner.body);
+    sums[n].linear += impulse;
+    sums[n].angular += glm::cross(at - bodies_[n].predicted.center, impulse);
+  };
+  for (RigidBody& body : bodies_)
+    for (size_t p = 0; p < body.points.size(); ++p)
+      forEachContact(body, body.points[p], 0, dt, [&](const Contact& c) {
+        Slip& slip = body.slips[p];
+        const glm::dvec3 moved = c.own.moved - c.other.moved;
+        const double approach = -glm::dot(moved, c.normal), before = glm::dot(c.own.before - c.other.before, c.normal);
+        double correction = std::min(c.depth, approach + separationSpeed_ * dt);
+        const double restitution = std::max(c.own.restitution, c.other.restitution);
+        if (before < -2 * dt * gravity) correction = std::max(correction, approach - restitution * before * dt);
+        const double compliant = compliance(c.own, c.at, c.normal) + compliance(c.other, c.at, c.normal);
+        if (compliant <= 0 || correction <= 0) return;
+        const double impulse = correction / compliant;
+        const bool continues = slip.partner == c.other.name;
+        glm::dvec3 total = impulse * c.normal, along = tangential(moved + (continues ? slip.slipped : glm::dvec3(0)), c.normal);
+        if (const double slipped = glm::length(along); slipped > 0) {
+          along /= slipped;
+          const double compliantAlong = compliance(c.own, c.at, along) + compliance(c.other, c.at, along);
+          const double limit = std::sqrt(c.own.friction * c.other.friction) * impulse * compliantAlong;
+          if (continues && first) slip.limit = limit;
+          if (compliantAlong > 0) total -= std::min(slipped, limit) / compliantAlong * along;
+        }
+        add(c.own, total, c.at);
+        add(c.other, -total, c.at);
+      });
+  for (size_t n = 0; n < bodies_.size(); ++n) {
+    if (bodies_[n].held) continue;
+    push(bodies_[n], sums[n], dt);
+    poses_[bodies_[n].solid] = poseOf(bodies_[n], bodies_[n].predicted);
+  }
+}
+
+void Bodies::react(std::span<const Impulse> solve, double dt) {
+  for (RigidBody& body : bodies_) {
+    if (body.held) continue;
+    const Impulse impulse = aboutMass(body, solve[body.solid]);
+    push(body, {dt * impulse.linear, dt * impulse.angular}, dt);
+  }
+}
+
+void Bodies::end(double dt) {
+  for (RigidBody& body : bodies_) {
+    for (int a = 0; a < 3; ++a)  // the solve carries no center through a wall
+      if (body.state.center[a] >= walls_.lo[a] && body.state.center[a] <= walls_.hi[a])
+        body.predicted.center[a] = std::clamp(body.predicted.center[a], walls_.lo[a], walls_.hi[a]);
+    body.state = body.predicted;
+    body.stiffness = body.nextStiffness;
+  }
+  findFastest();
+  lastStep_ = dt;
+  advanced_ = true;
+}
+
+void Bodies::forgetPrediction() {
+  for (RigidBody& body : bodies_) {
+    body.predicted = body.state;
+    body.stiffness = body.nextStiffness;
+  }
+}
+
+double Bodies::root(size_t solid, const glm::dvec3& x, const glm::dvec3& gradient) const {
+  if (!isBody(solid)) return 0;
+  return std::sqrt(mobility(bodies_[index(solid)], x, gradient));
+}
+
+void Bodies::beginStiffness() {
+  for (RigidBody& body : bodies_) body.nextStiffness = 0;
+}
+
+void Bodies::addRoot(size_t solid, double root, double particleMass) {
+  if (isBody(solid)) bodies_[index(solid)].nextStiffness += particleMass * root;
+}
+
+double Bodies::share(size_t solid, const glm::dvec3& x, const glm::dvec3& direction) const {
+  if (!isFree(solid)) return 1;
+  return 1 / (1 + 2 * spacing_ * root(solid, x, direction) * stiffness(solid));
+}
+
+}  // namespace rill::reference

@@ -1,0 +1,145 @@
+#version 460
+// Contacts of bodies with walls and other solids, a sample point an invocation: position-based (Mueller et al. 2020), all at once.
+// COUNTS: counts the contacts of each body, which share its mass, so that together they do not correct too much (Tonge et al. 2012).
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "shared/arrays.glsl"
+READ_UINT(8, meshWord)
+#define MESH_WORDS
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(std430, binding = 2) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 3) buffer BodyBlock { BodyRecord bodies[]; };
+layout(std430, binding = 4) readonly buffer TouchedBlock { TouchedRecord touched[]; };
+layout(std430, binding = 5) readonly buffer ContactPointBlock { ContactPointRecord contactPoints[]; };
+layout(std430, binding = 6) buffer SolidSumsBlock { uint solidSums[]; };
+layout(std430, binding = 7) buffer SlipBlock { SlipRecord slips[]; };
+layout(push_constant) uniform Push { ContactPush push; };
+#include "fluid/bodies.glsl"
+#include "fluid/solid_sums.glsl"
+
+// What a body touches. A wall, or a solid that is held or moves by itself, has no body.
+struct Partner {
+  uint name;    // as in SlipRecord
+  uint body;
+  float friction, restitution;
+  vec3 moved;   // m, its displacement in the substep at the contact
+  vec3 before;  // m/s, its velocity there before
+};
+
+Partner partnerOf(uint k, vec3 at) {
+  PoseRecord pose = solids[k].pose;
+  vec3 velocity = velocityAt(pose, at), before = velocity;
+  uint n = solids[k].body;
+  if (n != kNoBody && bodies[n].held != 0u) n = kNoBody;
+  if (n != kNoBody) {
+    PoseRecord s = bodies[n].state;
+    bool advances = control.nextPhase == kPhaseAdvancing;
+    before = advances ? velocityOf(s) + cross(angularVelocity(s), at - centerOf(bodies[n].predicted)) : vec3(0.0);
+  }
+  return Partner(k + 1u, n, solids[k].friction, solids[k].restitution, bodyStep() * velocity, before);
+}
+
+vec3 tangential(vec3 v, vec3 normal) { return v - dot(v, normal) * normal; }
+
+// How far a unit impulse moves the partner along a unit vector, 1/kg, while its mass is split between its contacts. 0 if that is rounding.
+float compliance(Partner p, vec3 at, vec3 direction) {
+  if (p.body == kNoBody) return 0.0;
+  BodyRecord b = bodies[p.body];
+  float w = mobility(b, at, direction);
+  return w > 1.0e-6 / b.mass ? float(max(b.contacts, 1u)) * w : 0.0;
+}
+
+// In units of the body's own mass, so that no other body decides how it is rounded.
+void addImpulse(Partner p, vec3 impulse, vec3 at) {
+  if (p.body != kNoBody) addToSolid(bodies[p.body].solid, impulse / bodies[p.body].mass, at);
+}
+
+SlipRecord slip;                                          // of the point
+SlipRecord counted = SlipRecord(0u, 0.0, 0.0, 0.0, 0.0);  // the same in this substep
+bool persists = false;                                    // it continues that of the last one
+
+// The slip of a point continues where it touches what it touched in the last substep, which added to it; else it begins at one of its
+// contacts.
+void count(Partner own, Partner other, vec3 normal) {
+  if (own.body != kNoBody) atomicAdd(bodies[own.body].contacts, 1u);
+  if (other.body != kNoBody) atomicAdd(bodies[other.body].contacts, 1u);
+  if (persists) return;
+  persists = slip.partner == other.name && control.phase == kPhaseAdvancing;
+  vec3 slipped = vec3(0.0);
+  if (persists) {
+    slipped = tangential(vec3(slip.x, slip.y, slip.z) + control.step * (own.before - other.before), normal);
+    float size = length(slipped);
+    if (size > slip.limit) slipped *= slip.limit / size;
+  }
+  counted = SlipRecord(other.name, slipped.x, slipped.y, slipped.z, 0.0);
+}
+
+// A contact at `at`, `depth` deep; `normal` is outward from the partner.
+void solve(Partner own, Partner other, vec3 at, vec3 normal, float depth) {
+  float dt = bodyStep();
+  vec3 moved = own.moved - other.moved;
+  float approach = -dot(moved, normal), before = dot(own.before - other.before, normal);
+  float correction = min(depth, approach + params.separationSpeed * dt);
+  float restitution = max(own.restitution, other.restitution);
+  if (before < -2.0 * dt * length(gravity())) correction = max(correction, approach - restitution * before * dt);
+  float compliant = compliance(own, at, normal) + compliance(other, at, normal);
+  if (compliant <= 0.0 || correction <= 0.0) return;
+  float impulse = correction / compliant;
+  bool continues = slip.partner == other.name;
+  vec3 along = tangential(moved + (continues ? vec3(slip.x, slip.y, slip.z) : vec3(0.0)), normal), total = impulse * normal;
+  float slipped = length(along);
+  if (slipped > 0.0) {
+    along /= slipped;
+    float complianceAlong = compliance(own, at, along) + compliance(other, at, along);
+    float limit = sqrt(own.friction * other.friction) * impulse * complianceAlong;
+    if (continues && push.iteration == 0u) slip.limit = limit;
+    if (complianceAlong > 0.0) total -= min(slipped, limit) / complianceAlong * along;
+  }
+  addImpulse(own, total, at);
+  addImpulse(other, -total, at);
+}
+
+void touch(Partner own, Partner other, vec3 at, vec3 normal, float depth) {
+  if (own.body == kNoBody && other.body == kNoBody) return;
+  if (COUNTS)
+    count(own, other, normal);
+  else
+    solve(own, other, at, normal, depth);
+}
+
+void main() {
+  uint n = flatInvocation();
+  if (n >= params.contactPoints || bodyStep() <= 0.0) return;
+  ContactPointRecord point = contactPoints[n];
+  slip = slips[n];
+  uint own = bodies[point.body].solid;
+  PoseRecord pose = solids[own].pose;
+  vec3 center = centerOf(pose) + toScene(pose, vec3(point.x, point.y, point.z));
+  float margin = COUNTS ? contactMargin() : 0.0;
+  for (uint side = 0u; side < 6u; ++side) {
+    uint a = side >> 1;
+    bool upper = (side & 1u) != 0u;
+    float depth = point.radius - (upper ? wallsHigh()[a] - center[a] : center[a] - wallsLow()[a]);
+    if (depth <= -margin) continue;
+    vec3 normal = vec3(0.0);
+    normal[a] = upper ? -1.0 : 1.0;
+    vec3 at = center - point.radius * normal;
+    Partner partner = partnerOf(own, at);
+    touch(partner, Partner(kWallPartner + side, kNoBody, partner.friction, 0.0, vec3(0.0), vec3(0.0)), at, normal, depth);
+  }
+  for (uint m = 0u; m < touched[point.body].count; ++m) {
+    uint k = touched[point.body].solids[m];
+    vec3 apart = centerOf(solids[k].pose) - center;
+    float reach = solidRadius(solids[k].shape) + point.radius + params.spacing;
+    if (dot(apart, apart) > reach * reach) continue;
+    vec3 normal;
+    float depth = point.radius - surfaceDistance(solids[k].shape, localPoint(solids[k].pose, center), normal);
+    if (depth <= -margin) continue;
+    normal = toScene(solids[k].pose, normal);
+    vec3 at = center - point.radius * normal;
+    touch(partnerOf(own, at), partnerOf(k, at), at, normal, depth);
+  }
+  slips[n] = COUNTS ? counted : slip;
+}

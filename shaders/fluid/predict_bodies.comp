@@ -1,0 +1,43 @@
+#version 460
+// Where bodies are at the end of the substep at hand, before contacts and the fluid's solve: by their velocity, gravity, and the load of
+// the fluid's warm start. Angular momentum is kept: the angular velocity is that at the end of the substep. One workgroup.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "shared/solid_loads.h"
+layout(local_size_x = 64) in;
+#include "shared/body_records.h"
+layout(std430, binding = 2) buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 3) readonly buffer SolidLoadBlock { SolidLoadRecord solidLoads[]; };
+layout(std430, binding = 4) buffer BodyBlock { BodyRecord bodies[]; };
+#include "fluid/predicted_bodies.glsl"
+
+PoseRecord predictedPose(BodyRecord b, float dt) {
+  PoseRecord s = b.state;
+  SolidLoadRecord load = solidLoads[b.solid];
+  vec3 force = vec3(load.warm[0], load.warm[1], load.warm[2]);
+  vec3 moment = aboutMass(b, s, force, vec3(load.warm[3], load.warm[4], load.warm[5]));
+  bool advances = control.nextPhase == kPhaseAdvancing;  // the initial pressure balances weight, not motion
+  vec3 before = advances ? velocityOf(s) : vec3(0.0), turning = advances ? angularVelocity(s) : vec3(0.0);
+  vec3 v = before + dt * (freeAxes(b.locked) * gravity() + inverseMass(b) * force);
+  vec4 q = rotationOf(s);
+  vec3 momentum = inertiaAt(b, q) * turning + dt * moment;
+  vec3 w = inverseInertiaAt(b, q) * momentum;
+  w = inverseInertiaAt(b, turned(q, dt * w)) * momentum;
+  return poseOf(centerOf(s) + dt * v, turned(q, dt * w), v, w);
+}
+
+void main() {
+  float dt = bodyStep();
+  for (uint n = gl_LocalInvocationID.x; n < params.bodyCount; n += gl_WorkGroupSize.x) {
+    BodyRecord b = bodies[n];
+    bool held = control.timeHigh < b.from || b.stopped != 0u;
+    bodies[n].held = uint(held);
+    solids[b.solid].freeBody = uint(!held);
+    PoseRecord s = b.state;
+    if (held)
+      s = poseOf(centerOf(s), rotationOf(s), vec3(0.0), vec3(0.0));
+    else if (dt > 0.0)
+      s = predictedPose(b, dt);
+    storePrediction(n, b, s);
+  }
+}

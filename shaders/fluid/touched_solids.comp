@@ -1,0 +1,36 @@
+#version 460
+// The solids that each body may touch in the substep at hand: those whose surface its bounding sphere reaches.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "shared/arrays.glsl"
+READ_UINT(6, meshWord)
+#define MESH_WORDS
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
+layout(local_size_x = kFluidGroup) in;
+layout(std430, binding = 2) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 3) buffer BodyBlock { BodyRecord bodies[]; };
+layout(std430, binding = 4) writeonly buffer TouchedBlock { TouchedRecord touched[]; };
+layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
+#include "fluid/bodies.glsl"
+
+void main() {
+  uint n = flatInvocation();
+  if (n >= params.bodyCount) return;
+  uint own = bodies[n].solid, count = 0u, skipped = 0u;
+  bodies[n].contacts = 0u;
+  vec3 middle = centerOf(bodies[n].predicted);
+  float reach = bodies[n].radius + contactMargin();
+  for (uint k = 0u; k < params.solidCount; ++k) {
+    vec3 apart = centerOf(solids[k].pose) - middle, normal;
+    float most = reach + solidRadius(solids[k].shape) + params.spacing;  // a sheet's surface is half a spacing off
+    if (k == own || dot(apart, apart) > most * most) continue;
+    if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, middle), normal) > reach) continue;
+    if (count < kMaxTouched)
+      touched[n].solids[count++] = k;
+    else
+      ++skipped;
+  }
+  touched[n].count = count;
+  if (skipped > 0u) atomicAdd(sums.boundHits, skipped);
+}

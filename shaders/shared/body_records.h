@@ -1,0 +1,50 @@
+// Rigid bodies on the device: solids that the fluid moves.
+#ifndef RILL_BODY_RECORDS_H
+#define RILL_BODY_RECORDS_H
+#include "shared/interop.h"
+#include "shared/solid_records.h"
+RILL_RECORDS_BEGIN
+
+struct BodyRecord {
+  PoseRecord state;                        // of its center of mass, at the end of the last substep
+  PoseRecord predicted;                    // in the present substep
+  float offsetX, offsetY, offsetZ;         // m, of the center of mass, in the solid's frame
+  float mass;                              // kg
+  float inertiaXX, inertiaYY, inertiaZZ, inertiaYZ, inertiaZX, inertiaXY;  // kg m^2, about the center of mass, in the solid's frame
+  uint solid;
+  uint locked;                             // degrees of freedom: bits x y z rx ry rz
+  float from;                              // s, held until then
+  uint held;                               // 1: in the present substep
+  uint stopped;                            // 1: for good, since its motion left the range of numbers
+  float radius;                            // m, of the sphere around the center of mass that holds it
+  uint contacts;                           // of the present substep
+  float inverseXX, inverseYY, inverseZZ, inverseYZ, inverseZX, inverseXY;  // 1/(kg m^2), of the predicted pose, without locked rotations
+  // Sum of m |grad B| / sqrt(w) over the particles near it, kg^1/2 / m: see docs/notes/bodies.md. Of the last substep; FluidParams says m.
+  float stiffness;
+};
+
+// A sphere on the surface of a body, whose contacts with walls and other solids are found; see engine/shape/contact_points.hpp.
+struct ContactPointRecord {
+  float x, y, z;   // m, center, in the solid's frame
+  float radius;    // m
+  uint body;
+};
+
+// What a contact point touches, and how far it has slipped there since it does, as in the discrete element method (Cundall and Strack
+// 1979): so friction holds what stands on a slope, however many substeps that takes.
+struct SlipRecord {
+  uint partner;    // 1 and a solid's index, or kWallPartner and a side of the domain; 0: none
+  float x, y, z;   // m, in the axes of the scene
+  float limit;     // m, beyond which friction does not hold it
+};
+RILL_CONST uint kWallPartner = 0x10000u;
+
+// Solids that a body may touch in a substep.
+RILL_CONST uint kMaxTouched = 31u;
+struct TouchedRecord {
+  uint count;
+  uint solids[kMaxTouched];
+};
+
+RILL_RECORDS_END
+#endif
