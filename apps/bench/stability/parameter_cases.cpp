@@ -53,7 +53,9 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
       if (field.info.key.starts_with("tensile_")) scene.fluid.tensile = 1;  // enables artificial pressure, which these keys shape
       set(scene.*part, field, value);
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
-      StressCase c{.name = owner + "." + std::string(field.info.key) + "=" + shown, .scene = scene};
+      std::string name = owner + ".";
+      name.append(field.info.key).append("=").append(shown);
+      StressCase c{.name = std::move(name), .scene = scene};
       c.duration_s = scene.solver.iterations > 100 ? 0.05 : 0.25;
       c.maxSpeed = speedBound(scene);
       c.mayBeRejected = true;
@@ -71,6 +73,11 @@ Solid randomMesh(std::mt19937_64& random, const Double3& at, double size) {
   solid.translation = at;
   if (auto mesh = Mesh::create(std::move(data), sheet)) solid.shape = MeshShape{.two_sided = sheet, .mesh = *std::move(mesh)};
   return solid;
+}
+
+bool isSheet(const Solid& solid) {
+  const auto* mesh = std::get_if<MeshShape>(&solid.shape);
+  return mesh && mesh->two_sided;
 }
 
 }  // namespace
@@ -120,7 +127,10 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
       if (shapes() % 3 == 0) solid = randomMesh(shapes, at, size);
       solid.friction = uniform(0, 1);
       solid.restitution = uniform(0, 1);
-      if (chance(0.3)) solid.motion = {{0, {0, 0, 0}}, {0.2, {uniform(-4, 4) * d, uniform(-4, 4) * d, uniform(-4, 4) * d}}};
+      if (shapes() % 3 == 0 && !isSheet(solid))
+        solid.body = Body{.density = std::pow(10.0, double(shapes() % 7)), .locked = static_cast<FreedomMask>(shapes() % 64)};
+      else if (chance(0.3))
+        solid.motion = {{0, {0, 0, 0}}, {0.2, {uniform(-4, 4) * d, uniform(-4, 4) * d, uniform(-4, 4) * d}}};
       scene.solids.push_back(solid);
     }
     for (double& v : scene.fill[0].velocity) v = uniform(-2, 2) * std::sqrt(10 * d);
@@ -129,7 +139,7 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
     c.duration_s = 12 * std::sqrt(d / 10);
     c.frame_s = c.duration_s / 12;
-    c.externalWork = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty(); });
+    c.externalWork = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty() || s.body; });
     // Initial overlaps (jitter, a solid inside the fluid) separate, which adds potential energy.
     c.maxEnergy = scene.fill[0].jitter > 0 || solids > 0 ? 1.2 : 1.02;
     c.maxSpeed = speedBound(scene, 4 * std::sqrt(10 * d) + (c.externalWork ? 40 * d : 0));

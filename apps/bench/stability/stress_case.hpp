@@ -44,6 +44,7 @@ double speedBound(const Scene& scene, double start = 0);
 
 std::vector<StressCase> startCases();                                 ///< degenerate initial states
 std::vector<StressCase> forceCases();                                 ///< extreme forces, time steps and scales
+std::vector<StressCase> bodyCases();                                  ///< rigid bodies
 std::vector<StressCase> sizeCases();                                  ///< numbers of particles at internal limits
 std::vector<StressCase> parameterCases();                             ///< each key of fluid and solver at its minimum and maximum
 std::vector<StressCase> randomCases(uint64_t first, uint64_t count);  ///< reproducible: the name is the seed

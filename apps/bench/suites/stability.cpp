@@ -51,6 +51,7 @@ class Stability {
     };
     add(startCases());
     add(forceCases());
+    add(bodyCases());
     add(sizeCases());
     add(parameterCases());
     // --only runs any random case, with --quick too.
