@@ -31,8 +31,7 @@ Scene pool(double spacing, Solid body) {
 }
 
 Expected<std::vector<Sample>> follow(const Bench& bench, const Scene& scene, double duration, double frame, Outcome& outcome) {
-  auto run = runSampled(
-      bench, scene, duration, frame, [](double) { return false; }, [](const Cloud&, double) {});
+  auto run = runScene(bench, {.scene = scene, .duration_s = duration, .frame_s = frame});
   if (!run) return run.error();
   outcome.run = std::move(*run);
   std::vector<Sample> samples;

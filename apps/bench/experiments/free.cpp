@@ -21,8 +21,7 @@ Expected<Outcome> fall(const Bench& bench, unsigned level) {
   scene.fluid.spacing = kSize / kBlockResolution[level];
   scene.fill.push_back(boxFill({0, 0, 0}, {kSize, kSize, kSize}));
   constexpr double kDuration = 1;
-  auto run = runSampled(
-      bench, scene, kDuration, 1.0 / 60, [](double) { return false; }, [](const Cloud&, double) {});
+  auto run = runScene(bench, {.scene = scene, .duration_s = kDuration, .frame_s = 1.0 / 60});
   if (!run) return run.error();
   Outcome outcome;
   outcome.run = std::move(*run);

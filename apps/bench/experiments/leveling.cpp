@@ -21,8 +21,7 @@ Expected<Outcome> level(const Bench& bench, double degrees) {
   Scene scene = boxScene(kLevelSpacing, {0, 0, 0}, {slosh.length_m, 2 * slosh.depth_m, width});
   scene.gravity = {slosh.gravity * std::sin(angle), -slosh.gravity * std::cos(angle), 0};
   scene.fill.push_back(boxFill({0, 0, 0}, {slosh.length_m, slosh.depth_m, width}));
-  auto run = runSampled(
-      bench, scene, kJudged + kPeriodsAfter * slosh.period(), 1.0 / 60, [](double) { return false; }, [](const Cloud&, double) {});
+  auto run = runScene(bench, {.scene = scene, .duration_s = kJudged + kPeriodsAfter * slosh.period(), .frame_s = 1.0 / 60});
   if (!run) return run.error();
   Outcome outcome;
   outcome.run = std::move(*run);

@@ -21,8 +21,7 @@ Expected<Outcome> liftOf(const Bench& bench, Solid solid, double volume, double 
   scene.solids.push_back(std::move(solid));
   scene.probes.push_back({.name = "load", .load = "held"});
   Outcome outcome;
-  auto run = runSampled(
-      bench, scene, kDuration, 1.0 / 60, [](double) { return false; }, [](const Cloud&, double) {});
+  auto run = runScene(bench, {.scene = scene, .duration_s = kDuration, .frame_s = 1.0 / 60});
   if (!run) return run.error();
   outcome.run = std::move(*run);
   double sum = 0, squares = 0, count = 0;

@@ -25,8 +25,7 @@ Expected<Outcome> slosh(const Bench& bench, double depth, unsigned level) {
   Scene scene = boxScene(spacing, {0, 0, 0}, {kLength, 2 * depth, kTankThickness * spacing});
   scene.fill.push_back(start->fill());
   const double expected = wave.period();
-  auto run = runSampled(
-      bench, scene, kPeriods * expected, 1.0 / 60, [](double) { return false; }, [](const Cloud&, double) {});
+  auto run = runScene(bench, {.scene = scene, .duration_s = kPeriods * expected, .frame_s = 1.0 / 60});
   if (!run) return run.error();
   Outcome outcome;
   outcome.run = std::move(*run);
