@@ -9,6 +9,12 @@
 #include "graph/import_whole.hpp"
 
 namespace rill {
+namespace {
+
+/// Whether pictures need the solids' records: a mesh's field, or a pose that no keyframe has.
+bool drawsFromRecords(const FluidSetup& setup) { return !setup.driven.empty() || !setup.meshWords.empty() || !setup.bodies.empty(); }
+
+}  // namespace
 
 void FluidImpl::importAll(Graph& graph) {
   resetAliases();
@@ -78,8 +84,7 @@ FluidState FluidImpl::present(Graph& graph) const {
   state.velocity = importWhole(graph, "velocities", buffer(FluidArray::Velocity));
   state.id = importWhole(graph, "ids", buffer(FluidArray::Id));
   state.countBuffer = state.control = importWhole(graph, "control", buffer(FluidArray::Control));
-  if (!setup.driven.empty() || !setup.meshWords.empty() || !setup.bodies.empty())
-    state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
+  if (drawsFromRecords(setup)) state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
   if (!setup.meshWords.empty()) state.meshWords = importWhole(graph, "fields of meshes", buffer(FluidArray::MeshWords));
   if (setup.loads) state.loads = importWhole(graph, "loads on solids", buffer(FluidArray::SolidLoads));
   return state;
@@ -155,7 +160,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.velocity = ref(FluidArray::Velocity);
   state.id = ref(FluidArray::Id);
   state.countBuffer = state.control = ref(FluidArray::Control);
-  if (!setup.driven.empty() || !setup.meshWords.empty() || !setup.bodies.empty()) state.solids = ref(FluidArray::Solids);
+  if (drawsFromRecords(setup)) state.solids = ref(FluidArray::Solids);
   if (!setup.meshWords.empty()) state.meshWords = ref(FluidArray::MeshWords);
   if (setup.loads) state.loads = ref(FluidArray::SolidLoads);
   return state;

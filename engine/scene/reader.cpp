@@ -259,10 +259,10 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
   if (!json.is_array()) return fail(path, foundText(json) + ", expected a list of some of " + quotedList(info.words));
   out = 0;
   for (size_t i = 0; i < json.size(); ++i) {
-    size_t side = 0;
-    if (!word(json[i], elementPath(path, i), info, side)) return false;
-    const auto bit = static_cast<SideMask>(1U << side);
-    if ((out & bit) != 0) return fail(elementPath(path, i), inQuotes(info.words[side]) + " is given twice; expected each once");
+    size_t index = 0;
+    if (!word(json[i], elementPath(path, i), info, index)) return false;
+    const auto bit = static_cast<SideMask>(1U << index);
+    if ((out & bit) != 0) return fail(elementPath(path, i), inQuotes(info.words[index]) + " is given twice; expected each once");
     out = static_cast<SideMask>(out | bit);
   }
   return true;

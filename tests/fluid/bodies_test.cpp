@@ -13,7 +13,7 @@
 namespace rill::test {
 namespace bodies_test {
 
-glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
+using reference::vec;
 glm::dquat quat(const Quaternion& q) { return {q.w, q.x, q.y, q.z}; }
 
 Solid body(Solid solid, double density, glm::dvec3 velocity = glm::dvec3(0)) {
@@ -32,16 +32,6 @@ Solid crate(glm::dvec3 center, double edge, double density = 500) {
   return body(slab(center - glm::dvec3(edge / 2), center + glm::dvec3(edge / 2)), density);
 }
 
-/// Particles outside of the solids.
-void place(Trial& t, const std::vector<glm::dvec3>& points) {
-  for (const glm::dvec3& x : points) {
-    bool outside = true;
-    for (const Solid& solid : t.scene.solids)
-      outside &= surfaceAt(solid.shape, solidPose(solid, 0), {x.x, x.y, x.z}).distance > 0.52 * t.d();
-    if (outside) t.x.push_back(x);
-  }
-}
-
 /// A ball whose origin is off its center.
 Solid eccentricBall(glm::dvec3 center, double radius) {
   MeshData data = ballMesh(radius, 3);
@@ -57,7 +47,7 @@ Trial crowded() {
   setWalls(t, {1.2, 1.2, 0.8});
   t.scene.solids = {turned(body(slab({0.15, 0.2, 0.2}, {0.4, 0.35, 0.5}), 300), {0, 0, 1}, 0.4), body(ball({0.7, 0.3, 0.4}, 0.12), 3000),
                     body(eccentricBall({1.0, 0.5, 0.4}, 0.12), 800)};
-  place(t, block({19, 10, 12}, t.d(), {0, 0, 0}, 0.02));
+  addOutsideSolids(t, block({19, 10, 12}, t.d(), {0, 0, 0}, 0.02));
   t.v.assign(t.x.size(), {1, -1.5, 0.75});
   return t;
 }
@@ -152,7 +142,7 @@ Trial collision() {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   t.scene.solids = {turned(body(slab({-0.2, -0.75, -0.2}, {0.2, -0.45, 0.2}), 700, kWind + glm::dvec3(0.5, 3, 0.2)), {1, 0, 2}, 0.3)};
-  place(t, block({12, 12, 12}, t.d(), glm::dvec3(-0.375), 0.02));
+  addOutsideSolids(t, block({12, 12, 12}, t.d(), glm::dvec3(-0.375), 0.02));
   t.v.assign(t.x.size(), kWind);  // so fast that no gain is bounded, which acts on each particle alone
   return t;
 }
@@ -238,7 +228,7 @@ TEST_F(BodiesTest, AreHeldUntilTheirTimeAndAlongLockedDegrees) {
   t.scene.solids[0].body->from = 0.0205;
   t.scene.solids[0].body->velocity = {0, 0.1, 0};
   t.scene.solids[1].body->locked = 0b111010;  // free to move along x and z
-  place(t, block({16, 8, 16}, t.d(), {0, 0, 0}, 0.02));
+  addOutsideSolids(t, block({16, 8, 16}, t.d(), {0, 0, 0}, 0.02));
   t.v.assign(t.x.size(), {1, 0.5, -0.4});
   auto run = start(t);
   run->substeps(20);
@@ -390,7 +380,7 @@ TEST_F(BodiesTest, HandleDegenerateInput) {
     Trial t = trial();
     setWalls(t, size);
     t.scene.solids = c.solids;
-    place(t, block({16, 6, 16}, t.d(), {0, 0, 0}, 0.02));
+    addOutsideSolids(t, block({16, 6, 16}, t.d(), {0, 0, 0}, 0.02));
     if (t.x.empty()) t.capacity = 1;
     auto run = start(t);
     run->substeps(200);

@@ -9,17 +9,7 @@
 namespace rill::test {
 namespace loads_test {
 
-glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
-
-/// Particles outside of the solids.
-void place(Trial& t, const std::vector<glm::dvec3>& points) {
-  for (const glm::dvec3& x : points) {
-    bool outside = true;
-    for (const Solid& solid : t.scene.solids)
-      outside &= surfaceAt(solid.shape, solidPose(solid, 0), {x.x, x.y, x.z}).distance > 0.52 * t.d();
-    if (outside) t.x.push_back(x);
-  }
-}
+using reference::vec;
 
 /// Fluid under gravity around a box that is turned and a ball, both near walls.
 Trial crowded() {
@@ -29,7 +19,7 @@ Trial crowded() {
   box.rotation = {0, 0, std::sin(0.2), std::cos(0.2)};
   t.scene.solids = {box, ball({0.65, 0.3, 0.4}, 0.12)};
   t.loads = true;
-  place(t, block({14, 10, 11}, t.d(), {0, 0, 0}, 0.02));
+  addOutsideSolids(t, block({14, 10, 11}, t.d(), {0, 0, 0}, 0.02));
   t.v.assign(t.x.size(), {4, -6, 3});  // so fast that no gain is bounded, which acts on each particle alone
   return t;
 }
@@ -95,7 +85,7 @@ TEST_F(LoadsTest, OfATurningMeshMatchReference) {
   Solid& mesh = t.scene.solids[1];
   mesh = {.shape = MeshShape{.mesh = meshOf(ballMesh(0.12, 3))}, .translation = {0.65, 0.3, 0.4}};
   for (int k = 0; k <= 4; ++k) mesh.motion.push_back({0.1 * k, {0, 0.05 * k, 0}, {0, std::sin(0.2 * k), 0, std::cos(0.2 * k)}});
-  place(t, block({14, 10, 11}, t.d(), {0, 0, 0}, 0.02));
+  addOutsideSolids(t, block({14, 10, 11}, t.d(), {0, 0, 0}, 0.02));
   t.v.assign(t.x.size(), {1, -1.5, 0.75});  // faster fluid is pushed out of the mesh, along a direction that is known approximately
   expectReferenceLoads(t, 5, 5e-3);
 }
@@ -107,7 +97,7 @@ TEST_F(LoadsTest, OfManySolidsMatchReference) {
   t.scene.solids.clear();
   for (int k = 0; k < 27; ++k)
     t.scene.solids.push_back(ball(glm::dvec3(0.25, 0.2, 0.2) + 0.07 * glm::dvec3(k % 3, k / 3 % 3, k / 9), 0.03));
-  place(t, block({14, 10, 11}, t.d(), {0, 0, 0}, 0.02));
+  addOutsideSolids(t, block({14, 10, 11}, t.d(), {0, 0, 0}, 0.02));
   t.v.assign(t.x.size(), {4, -6, 3});
   expectReferenceLoads(t, 2, 2e-2);
 }
@@ -130,7 +120,7 @@ Trial free() {
   Solid box = slab({-0.2, -0.3, -0.25}, {0.2, -0.05, 0.2});
   box.rotation = {0.1, 0, std::sin(0.2), std::sqrt(1 - 0.01 - std::sin(0.2) * std::sin(0.2))};
   t.scene.solids = {box, ball({0.15, 0.2, 0.1}, 0.13)};
-  place(t, block({10, 12, 10}, 0.985 * t.d(), glm::dvec3(-0.3), 0.02));
+  addOutsideSolids(t, block({10, 12, 10}, 0.985 * t.d(), glm::dvec3(-0.3), 0.02));
   t.v.assign(t.x.size(), {8, -6, 5});
   return t;
 }

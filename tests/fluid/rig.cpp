@@ -129,6 +129,15 @@ std::vector<glm::dvec3> cloud(size_t count, double edge, unsigned seed, glm::dve
   return x;
 }
 
+void addOutsideSolids(Trial& trial, const std::vector<glm::dvec3>& points) {
+  for (const glm::dvec3& x : points) {
+    bool outside = true;
+    for (const Solid& solid : trial.scene.solids)
+      outside &= surfaceAt(solid.shape, solidPose(solid, 0), {x.x, x.y, x.z}).distance > 0.52 * trial.d();
+    if (outside) trial.x.push_back(x);
+  }
+}
+
 bool Snapshot::finite() const {
   for (const auto* all : {&x, &v})
     for (const glm::dvec3& p : *all)

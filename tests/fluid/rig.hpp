@@ -49,6 +49,8 @@ Solid slab(glm::dvec3 low, glm::dvec3 high);
 
 /// Points of a lattice, the first half a spacing from `from`, each moved by up to `jitter` spacings an axis.
 std::vector<glm::dvec3> block(glm::ivec3 count, double d, glm::dvec3 from = glm::dvec3(0), double jitter = 0, unsigned seed = 1);
+/// Adds particles where there is no solid.
+void addOutsideSolids(Trial& trial, const std::vector<glm::dvec3>& points);
 std::vector<glm::dvec3> cloud(size_t count, double edge, unsigned seed, glm::dvec3 from = glm::dvec3(0));
 
 /// Particles in the order of their ids.
