@@ -167,7 +167,6 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
     record.body = kNoBody;
     if (solid.body) {
       record.body = static_cast<uint32_t>(setup.bodies.size());
-      record.freeBody = solid.body->from <= 0;
       if (auto added = addBody(solid, bodyShape(solid.shape, bodyShapes, other), origin, setup); !added) return added.error();
     }
     record.friction = f(solid.friction);

@@ -119,6 +119,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
   for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center.begin());
+  staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
   std::vector<BodyRecord> bodies = setup.bodies;  // of the snapshot, their states and what the last substep left
   for (size_t k = 0; k < bodies.size(); ++k) {
     BodyRecord saved;
@@ -128,9 +129,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     bodies[k].held = saved.held;
     bodies[k].stopped = saved.stopped;
     bodies[k].stiffness = saved.stiffness;
-    solids[bodies[k].solid].freeBody = saved.held == 0;
   }
-  staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
   takeBodies(std::as_bytes(std::span(bodies)));
   staging_->add(slotOf(FluidArray::Bodies), bodies.size() * sizeof(BodyRecord), bytesOf(bodies));
   staging_->add(slotOf(FluidArray::Slips), s.slips.data(), s.slips.size() * sizeof s.slips[0]);

@@ -128,7 +128,7 @@ glm::dmat3 ReferenceSolver::pairScale(size_t i, const Pair& pair) const {
 glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, const AddReaction& add, bool withBodies) const {
   const double clearance = settings.spacing / 2;
   for (size_t n = 0; n < solids.size(); ++n) {
-    if (!withBodies && bodies_.isFree(n)) continue;
+    if (!withBodies && bodies_.isBody(n)) continue;
     const SurfacePoint surface = surfaceOf(n, solids[n], x);
     if (surface.distance >= clearance) continue;
     const glm::dvec3 by = (clearance - surface.distance) * vec(surface.normal);

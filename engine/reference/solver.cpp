@@ -367,7 +367,7 @@ void ReferenceSolver::predictPositions(double dt, bool atRest) {
     addReactions(i, state.warm[i], densityPoses_, add);
     x += push;
     if (finite(x)) {
-      state.predicted[i] = collide(x, solids, pushed, atRest);  // the density that a free body displaces is enough
+      state.predicted[i] = collide(x, solids, pushed, atRest);  // the density that a body displaces is enough
     } else {
       deactivate(i);
     }

@@ -48,13 +48,13 @@ layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
 
-// The listed solid nearest to x, which pushed its prediction, and the direction. Free bodies push no prediction.
+// The listed solid nearest to x, which pushed its prediction, and the direction. Bodies push no prediction.
 uint nearestSolid(uvec3 near, vec3 x, out vec3 direction) {
   uint nearest = kNoSolid;
   float least = 3.0e38;
   direction = vec3(0.0);
   for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
-    if (BODIES && solids[k].freeBody != 0u) continue;
+    if (BODIES && solids[k].body != kNoBody) continue;
     vec3 normal;
     float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
     if (distance >= least) continue;
@@ -111,7 +111,7 @@ void main() {
     vec3 relative = v - moving;
     float away = dot(relative, normal);
     vec3 along = relative - away * normal;
-    float predicted_ = BODIES && solids[k].freeBody != 0u ? 0.0 : freeVelocity[i].w / control.step;
+    float predicted_ = BODIES && solids[k].body != kNoBody ? 0.0 : freeVelocity[i].w / control.step;
     float impulse = max(0.0, dot(given, normal) + predicted_);
     if (before < 0.0 && solids[k].restitution > 0.0 && away < -solids[k].restitution * before) {
       float bounce = -solids[k].restitution * before - away;

@@ -16,7 +16,7 @@
 vec3 outside(vec3 x, uvec3 near, float ahead, out float pushed) {
   pushed = 0.0;
   for (uint n = 0u, k; nextSolid(near, n, k); ++n) {
-    if (BODIES && ahead > 0.0 && solids[k].freeBody != 0u) continue;  // the density that a free body displaces is enough
+    if (BODIES && ahead > 0.0 && solids[k].body != kNoBody) continue;  // the density that a body displaces is enough
     PoseRecord pose = later(solids[k].pose, ahead);
     vec3 normal;
     float distance = surfaceDistance(solids[k].shape, localPoint(pose, x), normal);

@@ -32,7 +32,6 @@ void main() {
     BodyRecord b = bodies[n];
     bool held = control.timeHigh < b.from || b.stopped != 0u;
     bodies[n].held = uint(held);
-    solids[b.solid].freeBody = uint(!held);
     PoseRecord s = b.state;
     if (held)
       s = poseOf(centerOf(s), rotationOf(s), vec3(0.0), vec3(0.0));

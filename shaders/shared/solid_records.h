@@ -39,7 +39,6 @@ struct SolidRecord {
   uint firstKey, keyCount;     // entries of the keyframe buffer
   uint driven;                 // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
   uint body;                   // index of its BodyRecord, or kNoBody
-  uint freeBody;               // 1: a body that is free to move in the present substep
   uint tableOffset;            // sphere: entries into the table buffer
   uint tableNodes;
   float tableFirst;            // sphere: signed distance of the table's first node, m
