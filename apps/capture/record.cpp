@@ -27,6 +27,7 @@ std::string oneLine(const Json& json) { return json.dump(-1, ' ', false, Json::e
 
 Json jsonOf(double value) { return value; }
 Json jsonOf(const offline::LoadValue& load) { return {{"force", load.force}, {"torque", load.torque}}; }
+Json jsonOf(const offline::PressureValue& value) { return value.pressure; }
 Json jsonOf(const offline::PoseValue& pose) {
   return {{"position", pose.position},
           {"rotation", std::array{pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}},
@@ -45,6 +46,9 @@ void addFigures(const std::string& name, const offline::LoadValue& load, std::ve
   addComponents(name + ".force", load.force, "N", figures);
   addComponents(name + ".torque", load.torque, "N m", figures);
 }
+void addFigures(const std::string& name, const offline::PressureValue& value, std::vector<Figure>& figures) {
+  figures.push_back({name, value.pressure, "Pa"});
+}
 void addFigures(const std::string& name, const offline::PoseValue& pose, std::vector<Figure>& figures) {
   addComponents(name + ".position", pose.position, "m", figures);
   addComponents(name + ".rotation", pose.rotation, "", figures);
@@ -58,6 +62,7 @@ offline::ProbeValue noValue(const Probe& probe) {
   constexpr Double3 kNoVector{kNone, kNone, kNone};
   if (!probe.load.empty()) return offline::LoadValue{kNoVector, kNoVector};
   if (!probe.pose.empty()) return offline::PoseValue{kNoVector, {kNone, kNone, kNone, kNone}, kNoVector, kNoVector};
+  if (probe.pressure) return offline::PressureValue{kNone};
   return kNone;
 }
 

@@ -45,6 +45,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      [](const ArrayShape& s) { return s.contactPoints; }},
     {Slips, "slips", "slips of contact points", Fluid, sizeof(SlipRecord), [](const ArrayShape& s) { return s.contactPoints; }},
     {Touched, "touched", "solids that bodies touch", Section, sizeof(TouchedRecord), [](const ArrayShape& s) { return s.bodies; }},
+    {PressureProbes, "pressureProbes", "pressure probes", Fluid, sizeof(PressureProbeRecord),
+     [](const ArrayShape& s) { return s.pressureProbes; }},
     {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},
     {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
@@ -57,7 +59,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {Warm, "warm", "warm-start multipliers", Fluid, kWord, perParticleIf<&ArrayShape::warm>, Account::Particles, &FluidSnapshot::warmStart,
      "warm", true},
     {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
-    {Multiplier, "multiplier", "iteration multipliers", Fluid, kWord, perParticleIf<&ArrayShape::iterated>, Account::Particles},
+    {Multiplier, "multiplier", "multipliers", Fluid, kWord, perParticleIf<&ArrayShape::multipliers>, Account::Particles},
     {ListHead, "listHead", "list heads", Fluid, kWord, [](const ArrayShape& s) { return s.lists || s.solids > 0 ? s.particles : 0; },
      Account::Particles},
     {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
@@ -117,11 +119,12 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .solids = p.solidCount,
           .bodies = p.bodyCount,
           .contactPoints = p.contactPoints,
+          .pressureProbes = p.pressureProbes,
           .meshWords = setup.meshWords.size(),
           .keyframes = setup.keyframes.size() / kKeyframeNumbers,
           .lists = p.listCapacity > 0,
           .warm = setup.warm,
-          .iterated = p.iterations > 1,
+          .multipliers = keepsMultipliers(setup),
           .smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0,
           .vorticity = p.vorticity > 0,
           .loads = setup.loads};
@@ -136,9 +139,10 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .solids = scene.solids.size(),
           .bodies = bodyCount(scene),
           .contactPoints = kMaxContactPoints * bodyCount(scene),
+          .pressureProbes = pressureProbeCount(scene),
           .lists = lists,
           .warm = startsWarm(scene),
-          .iterated = scene.solver.iterations > 1,
+          .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,
           .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
           .vorticity = scene.fluid.vorticity > 0,
           .loads = !scene.solids.empty()};  // a host may ask for them

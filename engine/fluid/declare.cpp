@@ -16,6 +16,8 @@ uint64_t FluidImpl::fixedGroups(Extent extent) const {
       return divideUp(setup.bodies.size(), kFluidGroup);
     case Extent::ContactPoints:
       return divideUp(setup.contactPoints.size(), kFluidGroup);
+    case Extent::PressureProbes:
+      return setup.pressureProbes.size();
     default:
       return divideUp(capacity, kFluidGroup);
   }

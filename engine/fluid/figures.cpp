@@ -41,6 +41,14 @@ void FluidImpl::takeBodies(std::span<const std::byte> records) const {
   }
 }
 
+void FluidImpl::takePressures(std::span<const std::byte> records) const {
+  for (size_t k = 0; k < pressures.size(); ++k) {
+    PressureProbeRecord record{};
+    if (!read(records.subspan(std::min(k * sizeof record, records.size())), record)) return;
+    pressures[k] = {.mean = record.mean, .integral = double{record.integralHigh} + record.integralLow, .covered = record.covered != 0};
+  }
+}
+
 void FluidImpl::takeLoads(std::span<const std::byte> records) const {
   for (size_t k = 0; k < solidLoads.size(); ++k) {
     SolidLoadRecord record{};
@@ -113,6 +121,7 @@ void FluidImpl::poll() const {
                 .listBuilds = control.builds};
     if (!setup.bodies.empty()) takeBodies(pending.graph.lock()->data(pending.bodies));
     if (setup.loads) takeLoads(pending.graph.lock()->data(pending.loads));
+    if (!pressures.empty()) takePressures(pending.graph.lock()->data(pending.pressures));
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
       const MeasurePartial& m = result.sums;

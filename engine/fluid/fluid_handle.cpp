@@ -37,6 +37,11 @@ std::vector<FluidPassRuns> Fluid::passRuns() const {
   return impl_->passRuns();
 }
 
+std::span<const PressureReading> Fluid::pressures() const {
+  impl_->poll();
+  return impl_->pressures;
+}
+
 std::span<const SolidLoad> Fluid::solidLoads() const {
   impl_->poll();
   return impl_->solidLoads;

@@ -59,8 +59,9 @@ class FluidImpl {
   FluidState present(Graph& graph) const;
   void poll() const;
   std::vector<FluidPassRuns> passRuns() const;
-  void takeBodies(std::span<const std::byte> records) const;  ///< BodyRecords
-  void takeLoads(std::span<const std::byte> records) const;   ///< SolidLoadRecords
+  void takeBodies(std::span<const std::byte> records) const;     ///< BodyRecords
+  void takePressures(std::span<const std::byte> records) const;  ///< PressureProbeRecords
+  void takeLoads(std::span<const std::byte> records) const;      ///< SolidLoadRecords
   std::span<const Chunk> chunks() const { return chunks_; }
   const Buffer& buffer(FluidArray array, uint32_t chunk = 0) const { return slot(slotOf(array, chunk)); }
   const Buffer& slot(size_t slot) const { return buffers_[slot]; }
@@ -74,6 +75,7 @@ class FluidImpl {
   mutable std::optional<FluidStats> stats;
   mutable FluidProgress progress;
   mutable std::vector<SolidLoad> solidLoads;
+  mutable std::vector<PressureReading> pressures;
   mutable std::vector<BodyRecord> bodyRecords;  ///< of the last finished frame
   mutable std::vector<BodyMotion> bodyMotions;  ///< likewise
 
@@ -91,7 +93,7 @@ class FluidImpl {
 
   struct Pending {
     std::weak_ptr<GraphImpl> graph;
-    Ticket control, sums, measure, loads, bodies;
+    Ticket control, sums, measure, loads, bodies, pressures;
     bool measured;
     bool uploads;  ///< the start state has been copied once this frame has finished
     Recorded recorded;

@@ -7,6 +7,7 @@ bool solids(const FluidSetup& s) { return s.params.solidCount > 0; }
 bool moves(const FluidSetup& s) { return !s.keyframes.empty(); }
 bool bodies(const FluidSetup& s) { return !s.bodies.empty(); }
 bool loads(const FluidSetup& s) { return s.loads; }
+bool probesPressure(const FluidSetup& s) { return !s.pressureProbes.empty(); }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
 bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
@@ -18,8 +19,9 @@ bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
 
 constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"}, kBodies{bodies, "no bodies"},
-    kLoads{loads, "no loads asked for, and no bodies"}, kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
-    kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
+    kLoads{loads, "no loads asked for, and no bodies"}, kProbesPressure{probesPressure, "no probes of pressure"},
+    kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"}, kSwirls{swirls, "vorticity is 0"},
+    kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
 
 using P = FluidPass;
 using E = Extent;
@@ -55,6 +57,8 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::SumLoads, "sum loads", "fluid/loads", E::NearSolids, {S::Correct, S::Iterate}, kLoads},
     {P::SolidLoads, "loads on solids", "fluid/solid_loads", E::One, {S::Correct, S::Iterate}, kLoads},
     {P::MoveBodies, "move bodies", "fluid/move_bodies", E::One, {S::Correct, S::Iterate}, kBodies},
+
+    {P::Pressure, "pressure at probes", "fluid/pressure", E::PressureProbes, {S::Correct}, kProbesPressure},
 
     {P::Viscosity, "viscosity", "fluid/viscosity", E::Gather, kEnd, kViscous},
     {P::CopyVelocities, "copy velocities", "fluid/copy_velocity", E::Particles, kEnd, {copies}},

@@ -40,6 +40,7 @@ enum class FluidPass : uint8_t {
   SumLoads,
   SolidLoads,
   MoveBodies,
+  Pressure,
   Viscosity,
   CopyVelocities,
   VelocityNoise,
@@ -85,8 +86,9 @@ enum class Extent : uint8_t {
   Gather,      ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
   NearSolids,  ///< particles near solids
   Bodies,      ///< rigid bodies
-  ContactPoints,  ///< their sample points
-  NearGather      ///< the same over their neighbors, a dispatch for each buffer of the list, in the variant that can walk the grid
+  ContactPoints,   ///< their sample points
+  PressureProbes,  ///< a workgroup each
+  NearGather       ///< the same over their neighbors, a dispatch for each buffer of the list, in the variant that can walk the grid
 };
 
 /// When a pass exists, and what the report of skipped passes says where it does not.

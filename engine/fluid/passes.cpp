@@ -143,7 +143,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{implOf(graph).weakSelf(), {}, {}, {}, {}, {}, false, uploads, {}};
+  Pending pending{implOf(graph).weakSelf(), {}, {}, {}, {}, {}, {}, false, uploads, {}};
   if (step.stats)
     declareMeasure(graph, pending);
   else
@@ -152,6 +152,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   pending.sums = graph.readback(ref(FluidArray::Sums));
   if (setup.loads) pending.loads = graph.readback(ref(FluidArray::SolidLoads));
   if (!setup.bodies.empty()) pending.bodies = graph.readback(ref(FluidArray::Bodies));
+  if (!setup.pressureProbes.empty()) pending.pressures = graph.readback(ref(FluidArray::PressureProbes));
   pending.recorded = recording_;
   pending_.push_back(pending);
   while (pending_.size() > 8) pending_.pop_front();

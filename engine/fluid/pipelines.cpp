@@ -37,7 +37,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"LIST_CAPACITY", p.listCapacity},
           {"WALLS", setup.walls},
           {"WARM", setup.warm},
-          {"ITERATED", p.iterations > 1},
+          {"MULTIPLIERS", keepsMultipliers(setup)},
           {"SOLIDS", p.solidCount > 0},
           {"MESHES", !setup.meshWords.empty()},
           {"CULL_SOLIDS", p.solidCount > kFewSolids},

@@ -242,6 +242,15 @@ void setGravity(const Scene& scene, FluidSetup& setup) {
 /// Whether a solid can hold the fluid up; bodies fall with it.
 bool holdsFluid(const Scene& scene) { return scene.solids.size() > bodyCount(scene); }
 
+void addPressureProbes(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup) {
+  const auto place = [&](double x, double from) { return static_cast<float>(std::clamp(x - from, -kLargest, kLargest)); };
+  for (const Probe& probe : scene.probes)
+    if (const auto& x = probe.pressure)
+      setup.pressureProbes.push_back({.x = place(x->x, origin.x), .y = place(x->y, origin.y), .z = place(x->z, origin.z)});
+  setup.params.pressureDensity = static_cast<float>(scene.fluid.density * kernel.gradientOfUnit());
+  setup.params.pressureProbes = static_cast<uint32_t>(setup.pressureProbes.size());
+}
+
 }  // namespace
 
 double artificialViscosity(const Scene& scene) {
@@ -261,6 +270,10 @@ bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open !=
 
 bool measuresLoads(const Scene& scene) {
   return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); }) || bodyCount(scene) > 0;
+}
+
+size_t pressureProbeCount(const Scene& scene) {
+  return static_cast<size_t>(std::ranges::count_if(scene.probes, [](const Probe& probe) { return probe.pressure.has_value(); }));
 }
 
 bool startsWarm(const Scene& scene) { return boundedWarmGain(scene).wanted > 0; }
@@ -332,6 +345,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
     p.maxStep = std::min(p.maxStep, f(std::sqrt(kContactFall * d / gravity)));
   p.contactPoints = static_cast<uint32_t>(setup.contactPoints.size());
   p.bodySpeed = f(fastestBody(scene));
+  addPressureProbes(scene, kernel, origin, setup);
   p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
   setViscosity(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);

@@ -10,6 +10,7 @@
 #include "rill/expected.hpp"
 #include "rill/fluid.hpp"
 #include "shared/fluid_records.h"
+#include "shared/pressure_probe.h"
 
 namespace rill {
 
@@ -28,6 +29,9 @@ inline constexpr size_t kBodyWords = sizeof(BodyRecord) / sizeof(uint32_t);
 /// Words of a SlipRecord.
 inline constexpr size_t kSlipWords = sizeof(SlipRecord) / sizeof(uint32_t);
 
+/// Words of a PressureProbeRecord.
+inline constexpr size_t kPressureProbeWords = sizeof(PressureProbeRecord) / sizeof(uint32_t);
+
 /// Times that the contacts of bodies are solved in a substep.
 inline constexpr uint32_t kContactIterations = 4;
 
@@ -45,6 +49,7 @@ struct FluidSetup {
   std::vector<SolidRecord> solids;                       ///< relative to the particles' origin, at time 0
   std::vector<BodyRecord> bodies;                        ///< likewise
   std::vector<ContactPointRecord> contactPoints;         ///< of the bodies, in their order
+  std::vector<PressureProbeRecord> pressureProbes;       ///< in the order of the scene's probes
   std::vector<uint32_t> meshWords;                       ///< the fields of all meshes (mesh_field.h)
   std::vector<float> keyframes;                          ///< KeyframeRecords
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
@@ -87,6 +92,12 @@ bool startsWarm(const Scene& scene);
 
 /// Whether a probe or a body needs loads on solids.
 bool measuresLoads(const Scene& scene);
+
+/// Number of probes of pressure.
+size_t pressureProbeCount(const Scene& scene);
+
+/// Whether the multipliers of a substep are kept in an array of their own: for further iterations, or for probes of pressure.
+inline bool keepsMultipliers(const FluidSetup& setup) { return setup.params.iterations > 1 || !setup.pressureProbes.empty(); }
 
 /// The time in which weight makes a liquid of a fill's lattice, s; 0 without gravity, or without walls and solids that hold the fluid.
 double meltingTime(const Scene& scene);

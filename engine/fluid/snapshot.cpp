@@ -48,6 +48,9 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   if (auto right = checkLength("slips", s.slips.size(), uint64_t{kSlipWords} * shape.contactPoints); !right) return right;
   if (!s.loads.empty())  // they may be of no use to the scene that goes on
     if (auto right = checkLength("loads", s.loads.size(), uint64_t{kLoadNumbers} * shape.solidCount); !right) return right;
+  if (s.pressures.size() % kPressureProbeWords != 0)  // of other probes they are of no use
+    return wrong("pressures has " + std::to_string(s.pressures.size()) + " entries; expected a multiple of " +
+                 std::to_string(kPressureProbeWords));
   const uint32_t count = record<FluidControl>(s.control).count;
   if (count > shape.capacity)
     return wrong("it has " + std::to_string(count) + " particles; expected at most " + std::to_string(shape.capacity));
@@ -151,7 +154,7 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
     from += n;
   }
 
-  if (auto right = checkLength("cells", s.cell.size(), alive && walksGrid(s) ? s.id.size() : 0); !right) return right;
+  if (auto right = checkLength("cells", s.cell.size(), alive ? s.id.size() : 0); !right) return right;
   if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= shape.cells))
     return wrong("the particles are not sorted by their cells");
   return {};
@@ -226,8 +229,6 @@ void setGravity(FluidSnapshot& s, const Double3& gravity) {
   control.gravityZ = static_cast<float>(gravity[2]);
   s.control = wordsOf(control);
 }
-
-bool walksGrid(const FluidSnapshot& snapshot) { return snapshot.listCapacity == 0 || record<FluidSums>(snapshot.sums).overflow > 0; }
 
 Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
   if (shape.capacity == 0 && snapshot.id.empty()) return {};

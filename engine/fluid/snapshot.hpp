@@ -27,8 +27,6 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
 
 /// Whether the snapshot has a list (or, where the fluid has none, a grid) that is not due to be built anew.
 bool hasNeighbors(const FluidSnapshot& snapshot);
-/// Whether some particle walks the grid that the list was made with.
-bool walksGrid(const FluidSnapshot& snapshot);
 
 /// The neighbors are due to be found anew before the next substep: after a change of what is near whom.
 void forgetNeighbors(FluidSnapshot& snapshot);

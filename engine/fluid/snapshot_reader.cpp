@@ -42,8 +42,8 @@ void SnapshotReader::declare(Graph& graph) {
   const auto read = [&](size_t slot) { tickets_.push_back(graph.readback(importWhole(graph, "state", fluid_.slot(slot)))); };
   const uint32_t part = parts_[next_];
   if (part != kRecords) return read(part);
-  for (FluidArray array :
-       {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads, FluidArray::Bodies, FluidArray::Slips})
+  for (FluidArray array : {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads, FluidArray::Bodies,
+                           FluidArray::Slips, FluidArray::PressureProbes})
     read(slotOf(array));
 }
 
@@ -104,6 +104,7 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   if (fluid_.setup.loads) snapshot_.loads = records<float>(data[3], fluid_.setup.params.solidCount * kLoadNumbers);
   if (fluid_.setup.params.bodyCount > 0) snapshot_.bodies = records<uint32_t>(data[4], fluid_.setup.params.bodyCount * kBodyWords);
   if (fluid_.setup.params.bodyCount > 0) snapshot_.slips = records<uint32_t>(data[5], fluid_.setup.params.contactPoints * kSlipWords);
+  snapshot_.pressures = records<uint32_t>(data[6], fluid_.setup.pressureProbes.size() * kPressureProbeWords);
   if (!fluid_.setup.movingSolids) return;
   for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount)) appendPose(r.pose, snapshot_.solids);
 }
@@ -118,7 +119,7 @@ void SnapshotReader::plan() {
   });
   if (fluid_.setup.params.solidCount > 0) add(FluidArray::NearSolids);
   if (!hasNeighbors(snapshot_)) return;
-  if (walksGrid(snapshot_)) add(FluidArray::Cell);
+  add(FluidArray::Cell);
   if (snapshot_.listCapacity == 0) return;
   add(FluidArray::ListHead);
   for (uint32_t c = 0; c < fluid_.chunks().size(); ++c) add(FluidArray::List, c);

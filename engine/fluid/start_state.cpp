@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <tuple>
 
 #include "fluid/fluid_impl.hpp"
 #include "fluid/neighbor_list.hpp"
@@ -103,6 +104,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->clear(slotOf(FluidArray::SolidLoads));
   staging_->add(slotOf(FluidArray::Bodies), setup.bodies.data(), setup.bodies.size() * sizeof(BodyRecord));
   staging_->clear(slotOf(FluidArray::Slips));
+  staging_->add(slotOf(FluidArray::PressureProbes), setup.pressureProbes.data(), setup.pressureProbes.size() * sizeof(PressureProbeRecord));
   staging_->add(slotOf(FluidArray::Id), id.size() * 4, bytesOf(id));
   staging_->clear(slotOf(FluidArray::Warm));
   staging_->clear(slotOf(FluidArray::WarmAcceleration));
@@ -133,6 +135,14 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   takeBodies(std::as_bytes(std::span(bodies)));
   staging_->add(slotOf(FluidArray::Bodies), bodies.size() * sizeof(BodyRecord), bytesOf(bodies));
   staging_->add(slotOf(FluidArray::Slips), s.slips.data(), s.slips.size() * sizeof s.slips[0]);
+  std::vector<PressureProbeRecord> probes = setup.pressureProbes;
+  for (size_t k = 0; k < probes.size() && kPressureProbeWords * k < s.pressures.size(); ++k) {
+    PressureProbeRecord saved;
+    std::memcpy(&saved, s.pressures.data() + k * kPressureProbeWords, sizeof saved);
+    if (std::tie(saved.x, saved.y, saved.z) == std::tie(probes[k].x, probes[k].y, probes[k].z)) probes[k] = saved;  // else another scene's
+  }
+  takePressures(std::as_bytes(std::span(probes)));
+  staging_->add(slotOf(FluidArray::PressureProbes), probes.size() * sizeof(PressureProbeRecord), bytesOf(probes));
   takeLoads(std::as_bytes(std::span(s.loads)));
   if (setup.loads && !s.loads.empty())
     staging_->add(slotOf(FluidArray::SolidLoads), s.loads.data(), s.loads.size() * sizeof s.loads[0]);

@@ -34,6 +34,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   declare(graph, FluidPass::SumLoads, Start::Correct);
   declare(graph, FluidPass::SolidLoads, Start::Correct, LoadPush{1});
   declare(graph, FluidPass::MoveBodies, Start::Correct, LoadPush{1});
+  declare(graph, FluidPass::Pressure, Start::Correct);
   declareForces(graph, first);
 }
 

@@ -177,8 +177,8 @@ struct Table<GravityChange> {
 
 template <>
 struct Table<Probe> {
-  static constexpr std::string_view about = "A measurement that is recorded with the statistics";
-  static constexpr std::array<std::string_view, 4> one_of{"level", "front", "load", "pose"};
+  static constexpr std::string_view about = "A measurement, recorded with the statistics";
+  static constexpr std::array<std::string_view, 5> one_of{"level", "front", "load", "pose", "pressure"};
   static constexpr std::tuple fields{
       Field{Info{.key = "name", .help = "name in the statistics; unique, not empty", .required = true}, &Probe::name},
       Field{Info{.key = "level", .unit = "m", .help = "height of the fluid column above the floor at [x, z]"}, &Probe::level},
@@ -196,7 +196,13 @@ struct Table<Probe> {
                          "y, z, w], velocity (m/s) and "
                          "angular velocity (rad/s)",
                  .since = "0.2"},
-            &Probe::pose}};
+            &Probe::pose},
+      Field{Info{.key = "pressure",
+                 .unit = "m",
+                 .help = "pressure (Pa, over that of the air) of the fluid at this point [x, y, z], mean over the time since the frame "
+                         "before; 0 in air, null inside a solid",
+                 .since = "0.2"},
+            &Probe::pressure}};
 };
 
 template <>

@@ -207,7 +207,7 @@ CheckResult checkRules(const Scene& scene) {
     if (!solid.name.empty()) names.push_back(solid.name);
   for (size_t i = 0; i < scene.probes.size(); ++i) {
     const Probe& probe = scene.probes[i];
-    if (probe.level || probe.front) continue;
+    if (probe.level || probe.front || probe.pressure) continue;
     if (probe.load.empty() && probe.pose.empty())
       return Fault{"found an empty name, expected the name of a solid", {elementPath("probes", i)}};
     const bool load = !probe.load.empty();

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "offline/state_hash.hpp"
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
+#include "shape/mass.hpp"
 #include "shape/pose.hpp"
 
 namespace rill::offline {
@@ -127,6 +129,17 @@ class Simulation::Impl {
     return particles;
   }
 
+  Expected<std::vector<PoseValue>> poses() {
+    if (auto measured = measure(); !measured) return measured.error();
+    std::vector<PoseValue> all;
+    for (const Solid& solid : scene_.solids) all.push_back(valueOf(solidPose(solid, measured_->time_s)));
+    for (const BodyMotion& body : fluid_->bodies())
+      all[body.solid] = valueOf(poseOfSolid(
+          scene_.solids[body.solid].shape,
+          {.center = body.center, .rotation = body.rotation, .velocity = body.velocity, .angularVelocity = body.angularVelocity}));
+    return all;
+  }
+
   Expected<Stats> stats() {
     if (auto measured = measure(); !measured) return measured.error();
     Stats stats;
@@ -218,21 +231,40 @@ class Simulation::Impl {
   ProbeValue valueOf(const Probe& probe, const ProbeReader& reader) const {
     if (probe.level) return reader.level(probe.level->first, probe.level->second);
     if (probe.front) return reader.front(*probe.front);
-    const auto solid = static_cast<size_t>(std::ranges::find(scene_.solids, probe.load.empty() ? probe.pose : probe.load, &Solid::name) -
-                                           scene_.solids.begin());
-    if (probe.load.empty()) {
-      for (const BodyMotion& body : fluid_->bodies())
-        if (body.solid == solid) return PoseValue{body.center, body.rotation, body.velocity, body.angularVelocity};
-      const Pose pose = solidPose(scene_.solids[solid], measured_->time_s);
-      return PoseValue{pose.center, pose.rotation, pose.velocity, pose.angularVelocity};
-    }
-    return loadOn(solid);
+    if (probe.pressure) return pressureAt(probe);
+    return probe.load.empty() ? ProbeValue(poseOf(solidNamed(probe.pose))) : loadOn(solidNamed(probe.load));
+  }
+
+  size_t solidNamed(const std::string& name) const {
+    return static_cast<size_t>(std::ranges::find(scene_.solids, name, &Solid::name) - scene_.solids.begin());
+  }
+
+  PoseValue poseOf(size_t solid) const {
+    for (const BodyMotion& body : fluid_->bodies())
+      if (body.solid == solid) return {body.center, body.rotation, body.velocity, body.angularVelocity};
+    return valueOf(solidPose(scene_.solids[solid], measured_->time_s));
+  }
+
+  static PoseValue valueOf(const Pose& pose) { return {pose.center, pose.rotation, pose.velocity, pose.angularVelocity}; }
+
+  double advancedSeconds() const { return advanced_s_ - advanced_.timeDropped_s; }
+
+  /// Mean over the last advance().
+  PressureValue pressureAt(const Probe& probe) const {
+    size_t k = 0;  // among the probes of pressure
+    for (const Probe* other = scene_.probes.data(); other != &probe; ++other) k += other->pressure.has_value();
+    const auto readings = fluid_->pressures();
+    if (k >= readings.size()) return {};  // a fluid without particles
+    if (readings[k].covered) return {std::numeric_limits<double>::quiet_NaN()};
+    const double seconds = advancedSeconds();
+    return {seconds > 0 && k < pressuresBefore_.size() ? (readings[k].integral - pressuresBefore_[k].integral) / seconds
+                                                       : readings[k].mean};
   }
 
   /// Mean over the last advance().
   LoadValue loadOn(size_t solid) const {
     LoadValue value;
-    const double seconds = advanced_s_ - advanced_.timeDropped_s;
+    const double seconds = advancedSeconds();
     if (!(seconds > 0) || loadsBefore_.size() <= solid) return value;
     const SolidLoad &before = loadsBefore_[solid], &now = fluid_->solidLoads()[solid];
     for (size_t a = 0; a < 3; ++a) {
@@ -245,6 +277,8 @@ class Simulation::Impl {
   void beginAdvance() {
     const auto loads = fluid_->solidLoads();
     loadsBefore_.assign(loads.begin(), loads.end());
+    const auto pressures = fluid_->pressures();
+    pressuresBefore_.assign(pressures.begin(), pressures.end());
     advanced_s_ = 0;
     measured_.reset();
     advanced_ = {};
@@ -349,9 +383,11 @@ class Simulation::Impl {
   Readout readout_;                     ///< at the current time
   double time_s_ = 0;
   double wall_s_ = 0;
-  uint64_t pictureBoundHits_ = 0;       ///< at the current time
-  std::vector<SolidLoad> loadsBefore_;  ///< before the last advance()
-  double advanced_s_ = 0;               ///< of the last advance(), dropped time included
+  uint64_t pictureBoundHits_ = 0;  ///< at the current time
+  // Before the last advance().
+  std::vector<SolidLoad> loadsBefore_;
+  std::vector<PressureReading> pressuresBefore_;
+  double advanced_s_ = 0;  ///< of the last advance(), dropped time included
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -393,6 +429,9 @@ Expected<void> Simulation::advance(double seconds) {
 double Simulation::time() const { return impl_->time(); }
 Expected<Particles> Simulation::particles(Order order) {
   return guarded("reading the particles", [&] { return impl_->particles(order); });
+}
+Expected<std::vector<PoseValue>> Simulation::poses() {
+  return guarded("reading the poses", [&] { return impl_->poses(); });
 }
 Expected<Stats> Simulation::stats() {
   return guarded("measuring", [&] { return impl_->stats(); });

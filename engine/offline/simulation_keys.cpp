@@ -93,6 +93,7 @@ class KeyCollector {
   void add(const model::Info&, std::string, const std::filesystem::path&) {}
   void add(const model::Info&, std::string, const std::optional<std::pair<double, double>>&) {}
   void add(const model::Info&, std::string, const std::optional<Axis>&) {}
+  void add(const model::Info&, std::string, const std::optional<Double3>&) {}
 
   SimulationKeys keys_;
 };

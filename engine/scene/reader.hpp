@@ -97,6 +97,9 @@ class Reader {
   bool value(const Json& json, const std::string& path, const model::Info& info, Double3& out) {
     return numbers(json, path, info, "[x, y, z]", out);
   }
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<Double3>& out) {
+    return value(json, path, info, out.emplace());
+  }
   bool value(const Json& json, const std::string& path, const model::Info& info, Quaternion& out) {
     return numbers(json, path, info, "[x, y, z, w]", out);
   }

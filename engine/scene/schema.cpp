@@ -27,6 +27,10 @@ OrderedJson arraySchema(const OrderedJson& items, size_t least, size_t most) {
   return {{"type", "array"}, {"items", items}, {"minItems", least}, {"maxItems", most}};
 }
 
+/// A vector of 3 numbers, or of the 4 of a quaternion.
+template <class T>
+inline constexpr bool kIsVector = std::is_same_v<T, Double3> || std::is_same_v<T, std::optional<Double3>> || std::is_same_v<T, Quaternion>;
+
 /// The type of a key's value, by the type of its member.
 template <class T>
 OrderedJson typeSchema(const model::Info& info) {
@@ -47,8 +51,8 @@ OrderedJson typeSchema(const model::Info& info) {
     return {{"oneOf", OrderedJson::array({{{"const", "auto"}}, numberSchema(info, "number")})}};
   } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
     return arraySchema(numberSchema(info, "number"), 2, 2);
-  } else if constexpr (std::is_same_v<T, Double3> || std::is_same_v<T, Quaternion>) {
-    constexpr size_t kSize = sizeof(T) / sizeof(double);
+  } else if constexpr (kIsVector<T>) {
+    constexpr size_t kSize = std::is_same_v<T, Quaternion> ? 4 : 3;
     return arraySchema(numberSchema(info, "number"), kSize, kSize);
   } else if constexpr (std::is_same_v<T, SideMask>) {
     OrderedJson schema = arraySchema({{"enum", info.words}}, 0, info.words.size());
@@ -142,8 +146,8 @@ std::string valuesText(const model::Info& info) {
     return "`\"auto\"`, or " + withRange("number", info.range);
   } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
     return withRange("2 numbers", info.range);
-  } else if constexpr (std::is_same_v<T, Double3> || std::is_same_v<T, Quaternion>) {
-    return withRange(std::to_string(sizeof(T) / sizeof(double)) + " numbers", info.range);
+  } else if constexpr (kIsVector<T>) {
+    return withRange(std::string(std::is_same_v<T, Quaternion> ? "4" : "3") + " numbers", info.range);
   } else if constexpr (std::is_same_v<T, SideMask>) {
     return "list of " + words;
   } else if constexpr (model::kIsList<T>) {

@@ -72,6 +72,14 @@ MassProperties massOf(const Solid& solid, const MassProperties& unit) {
 
 MassProperties massOf(const Solid& solid) { return massOf(solid, massOf(solid.shape, 1)); }
 
+Pose poseOfSolid(const Shape& shape, const Pose& centerOfMass) {
+  Pose pose = centerOfMass;
+  const Double3 toCenter = toScene(pose, along({}, -1, massOf(shape, 1).center));
+  pose.center = along(pose.center, 1, toCenter);
+  pose.velocity = along(pose.velocity, 1, cross(pose.angularVelocity, toCenter));
+  return pose;
+}
+
 double radiusAbout(const Shape& shape, const Double3& center) {
   const auto* mesh = std::get_if<MeshShape>(&shape);
   if (!mesh) return boundingRadius(shape) + length(center);

@@ -1,5 +1,6 @@
 #pragma once
 // Mass, center of mass and inertia of shapes with uniform density.
+#include "shape/pose.hpp"
 #include "shape/shape.hpp"
 
 namespace rill {
@@ -17,6 +18,9 @@ MassProperties massOf(const Shape& shape, double density);
 /// Of a solid with a body. `unit`: that of its shape with density 1.
 MassProperties massOf(const Solid& solid, const MassProperties& unit);
 MassProperties massOf(const Solid& solid);
+
+/// The pose of a body's solid, from that of its center of mass. Both frames have the same axes.
+Pose poseOfSolid(const Shape& shape, const Pose& centerOfMass);
 
 /// Of the sphere around a point of the shape's frame that holds the shape, m.
 double radiusAbout(const Shape& shape, const Double3& center);

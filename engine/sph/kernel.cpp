@@ -23,6 +23,7 @@ SmoothingKernel::SmoothingKernel(KernelChoice choice, double h, double d) : choi
     return slope * slope;
   });
   secondMoment_ = overLattice([&](double x, double r) { return value(r) * x * x; });
+  gradientOfUnit_ = overLattice([&](double x, double r) { return -gradientOverR(r) * x * x; });
 }
 
 double SmoothingKernel::value(double r) const {

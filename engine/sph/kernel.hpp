@@ -38,11 +38,14 @@ class SmoothingKernel {
   /// sigma^2: sum of K x^2 over the rest lattice, m^2. XSPH with coefficient c per step dt has the viscosity nu = c sigma^2 / (2 dt).
   double secondMoment() const { return secondMoment_; }
 
+  /// -1/3 of the sum of x . grad K over the rest lattice: what the sum makes of a gradient of 1. 0.95 for Wendland with h = 2 d.
+  double gradientOfUnit() const { return gradientOfUnit_; }
+
  private:
   KernelChoice choice_;
   double h_, d_;
   double valueScale_ = 1, gradientScale_ = 0;
-  double restGradientSum_ = 0, secondMoment_ = 0;
+  double restGradientSum_ = 0, secondMoment_ = 0, gradientOfUnit_ = 0;
 };
 
 }  // namespace rill

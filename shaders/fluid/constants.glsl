@@ -7,7 +7,7 @@ layout(constant_id = 2) const uint LIST_CAPACITY = 0;  // entries a particle of 
 layout(constant_id = 3) const bool WALKS = false;      // the variant that can walk the grid, for particles whose list overflowed
 layout(constant_id = 4) const bool WALLS = false;      // the domain has a wall
 layout(constant_id = 5) const bool WARM = true;        // multipliers and accelerations of the warm start are kept
-layout(constant_id = 6) const bool ITERATED = false;   // more than one iteration a substep
+layout(constant_id = 6) const bool MULTIPLIERS = false;  // the multipliers of a substep are kept: for the next iteration, or for probes
 layout(constant_id = 7) const bool SOLIDS = false;     // there are solids
 layout(constant_id = 8) const bool FORCES = false;     // viscosity or another force changes velocities in every substep
 layout(constant_id = 9) const bool ARTIFICIAL_PRESSURE = false;

@@ -85,7 +85,7 @@ float updateMultiplier(uint i, uint head) {
     after = min(0.0, before + delta);
     if (WARM) warmNext = warm[i];
   }
-  if (ITERATED) multiplier[i] = after;
+  if (MULTIPLIERS) multiplier[i] = after;
 
   float unit = kMultiplierScale / params.inverseRestGradient;
   work[i] = uvec4(floatBitsToUint(here), packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0)));

@@ -63,6 +63,8 @@ struct FluidParams {
   uint solidCount;
   uint bodyCount;         // solids that are rigid bodies
   uint contactPoints;     // of all bodies
+  uint pressureProbes;
+  float pressureDensity;  // kg/m^3, that makes a pressure of a multiplier over the square of the step: see docs/notes/pressure.md
   float bodySpeed;        // m/s, the fastest point of a body at the start
   float separationSpeed;  // m/s, at which bodies that overlap come apart, at most
   float spacing;          // m

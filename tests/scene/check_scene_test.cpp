@@ -128,7 +128,7 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
        },
        "probes[2].pose: no solid is named \"crat\"; expected one of \"crate\"; did you mean \"crate\"?"},
       {[](Scene& s) { s.probes[0].load = "crate"; },
-       "probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\"; found \"level\", \"load\""},
+       "probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\", \"pressure\"; found \"level\", \"load\""},
       {[](Scene& s) { s.solids[0].body = Body{}; }, "solids[0].body: expected exactly one of \"density\", \"mass\"; found none"},
       {[](Scene& s) { s.solids[0].body = Body{.density = 500, .mass = 3}; },
        "solids[0].body: expected exactly one of \"density\", \"mass\"; found \"density\", \"mass\""},

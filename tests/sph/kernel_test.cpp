@@ -34,6 +34,12 @@ TEST_P(KernelTest, RestLatticeHasRestDensity) {
   EXPECT_NEAR(gradients / k.restGradientSum(), 1, 1e-12);
 }
 
+TEST(GradientOfUnitTest, NearsOneWithSupport) {
+  const SmoothingKernel narrow(KernelChoice::Wendland, 2 * kSpacing, kSpacing), wide(KernelChoice::Wendland, 8 * kSpacing, kSpacing);
+  EXPECT_NEAR(narrow.gradientOfUnit(), 0.9501, 1e-4);
+  EXPECT_NEAR(wide.gradientOfUnit(), 1, 1e-4);
+}
+
 // The integral of K over space is d^3 up to the discretization error of the lattice, which vanishes as h/d grows.
 TEST_P(KernelTest, IntegratesToParticleVolume) {
   const SmoothingKernel k = kernel();

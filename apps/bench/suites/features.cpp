@@ -41,6 +41,7 @@ constexpr const char* kBox = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6
 constexpr const char* kNamedBox = R"([{"name": "box", "box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}}])";
 constexpr const char* kBody = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "body": {"density": 500}}])";
 constexpr const char* kLoad = R"([{"name": "load", "load": "box"}])";
+constexpr const char* kPressure = R"([{"name": "pressure", "pressure": [0.5, 0.2, 0.5]}])";
 constexpr const char* kDistantBox = R"([{"box": {"min": [4.6, 3, 0.3], "max": [4.9, 3.6, 0.7]}}])";
 constexpr const char* kSphere = R"([{"sphere": {"center": [2.8, 0.3, 0.5], "radius": 0.25}}])";
 constexpr const char* kMoving =
@@ -67,6 +68,7 @@ std::vector<Feature> features() {
       {"moving solid", {{"solids", kMoving}}},
       {"load on a solid", {{"rill", "\"0.2\""}, {"solids", kNamedBox}, {"probes", kLoad}}},
       {"floating box", {{"rill", "\"0.2\""}, {"solids", kBody}}, {{"rill", "\"0.2\""}, {"solids", "[]"}}},
+      {"pressure at a point", {{"rill", "\"0.2\""}, {"probes", kPressure}}, {{"rill", "\"0.2\""}, {"probes", "[]"}}},
       {"3 iterations", {{"solver.iterations", "3"}, {"solver.warm_start", "0.02"}}, {{"solver.iterations", "1"}}},
       {"no artificial viscosity", {{"solver.artificial_viscosity", "0"}}},  // its dispatches are empty at the speeds of the base scene
       {"no warm start", {{"solver.warm_start", "0"}}},

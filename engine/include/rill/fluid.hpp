@@ -54,6 +54,13 @@ struct SolidLoad {
   Double3 impulse = {0, 0, 0}, angularImpulse = {0, 0, 0};  ///< since the start, N s and N m s
 };
 
+/// Pressure of the fluid at a point, over that of the air: 0 in air, and inside a solid.
+struct PressureReading {
+  double mean = 0;       ///< over the time that the last ended advance took, Pa
+  double integral = 0;   ///< over the time since the start, Pa s
+  bool covered = false;  ///< the point was inside a solid at the end
+};
+
 /// Where a body is and how fast it moves, in the scene.
 struct BodyMotion {
   uint32_t solid = 0;                   ///< index among the scene's solids
@@ -193,6 +200,10 @@ class RILL_API Fluid {
   /// Loads on the solids after the last finished frame; before the first, zeros or those of the snapshot. Empty unless loads are
   /// measured. Valid until the fluid is moved or destroyed; the next call that reads results may change the values.
   std::span<const SolidLoad> solidLoads() const;
+
+  /// At the scene's probes of pressure, in their order, after the last finished frame; before the first, zeros or those of the snapshot.
+  /// Valid until the fluid is moved or destroyed; the next call that reads results may change the values.
+  std::span<const PressureReading> pressures() const;
 
   /// Motion of the bodies, in the order of the solids, after the last finished frame. Valid until the fluid is moved or destroyed; the
   /// next call that reads results may change the values.

@@ -87,16 +87,21 @@ struct LoadValue {
   Double3 torque = {0, 0, 0};  ///< N m, about the solid's center
 };
 
-/// Value of a probe of a pose, in the scene.
+/// Where a solid is and how it moves, in the scene.
 struct PoseValue {
-  Double3 position = {0, 0, 0};         ///< of the center, m
+  Double3 position = {0, 0, 0};         ///< of the center, m; a probe of a body has that of mass
   Quaternion rotation = {0, 0, 0, 1};   ///< unit quaternion x y z w, from the solid's frame to the scene's
   Double3 velocity = {0, 0, 0};         ///< m/s
   Double3 angularVelocity = {0, 0, 0};  ///< rad/s
 };
 
+/// Value of a probe of a pressure: mean over the last advance(); 0 before the first.
+struct PressureValue {
+  double pressure = 0;  ///< Pa, over that of the air; NaN inside a solid
+};
+
 /// A length (m) of a level or a front, or one of the above.
-using ProbeValue = std::variant<double, LoadValue, PoseValue>;
+using ProbeValue = std::variant<double, LoadValue, PoseValue, PressureValue>;
 
 /// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
@@ -154,6 +159,8 @@ class Simulation {
   double time() const;  ///< simulated time, s
   /// The particles at the current time. Errors as advance().
   Expected<Particles> particles(Order order = Order::ById);
+  /// Where each solid of the scene is at the current time: its center, or a mesh's origin. Errors as advance().
+  Expected<std::vector<PoseValue>> poses();
   Expected<Stats> stats();  ///< statistics at the current time, measured at the first call; errors as advance()
   /// A checkpoint at the current time. Does not affect later results. Errors as advance().
   Expected<Checkpoint> checkpoint(uint64_t frame = 0, double fps = 0);

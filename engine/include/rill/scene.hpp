@@ -157,13 +157,14 @@ struct GravityChange {
 /// A direction along an axis, or against it.
 enum class Axis : uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
 
-/// A measurement. Exactly one of `level`, `front`, `load` and `pose` is given.
+/// A measurement. Exactly one of `level`, `front`, `load`, `pose` and `pressure` is given.
 struct Probe {
   std::string name = {};                                ///< unique, not empty
   std::optional<std::pair<double, double>> level = {};  ///< height of the fluid column at x, z (m)
   std::optional<Axis> front = {};                       ///< farthest position of the fluid along this axis
   std::string load = {};                                ///< name of a solid: force and torque of the fluid on it
   std::string pose = {};                                ///< name of a solid: where it is and how fast it moves
+  std::optional<Double3> pressure = {};                 ///< of the fluid at this point, m
 };
 
 /// The camera of the pictures.

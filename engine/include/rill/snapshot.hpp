@@ -38,12 +38,13 @@ struct NearSolids {
 /// The persistent state of a fluid between two advances, on the host: everything that later steps depend on, bit by bit
 /// (docs/architecture.md, "What is persisted"). Arrays have one entry per particle, in the order of the device.
 struct FluidSnapshot {
-  std::vector<uint32_t> control = {};  ///< FluidControl (shaders/shared/fluid_records.h), word by word
-  std::vector<uint32_t> sums = {};     ///< FluidSums, word by word
-  std::vector<float> solids = {};      ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
-  std::vector<uint32_t> bodies = {};   ///< BodyRecord (body_records.h) of each body, word by word
-  std::vector<uint32_t> slips = {};    ///< SlipRecord of each contact point of the bodies, word by word
-  std::vector<float> loads = {};       ///< SolidLoadRecord (solid_loads.h) of each solid, word by word; empty unless loads are measured
+  std::vector<uint32_t> control = {};    ///< FluidControl (shaders/shared/fluid_records.h), word by word
+  std::vector<uint32_t> sums = {};       ///< FluidSums, word by word
+  std::vector<float> solids = {};        ///< the pose of each solid (shaders/shared/solid_records.h); empty if no solid moves
+  std::vector<uint32_t> bodies = {};     ///< BodyRecord (body_records.h) of each body, word by word
+  std::vector<uint32_t> slips = {};      ///< SlipRecord of each contact point of the bodies, word by word
+  std::vector<float> loads = {};         ///< SolidLoadRecord (solid_loads.h) of each solid, word by word; empty unless loads are measured
+  std::vector<uint32_t> pressures = {};  ///< PressureProbeRecord (pressure_probe.h) of each probe of pressure, word by word
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Warm start; empty without one.
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
@@ -56,7 +57,7 @@ struct FluidSnapshot {
   /// Concatenated by particle; without those of particles that exceed the capacity. Near walls an entry kImageOfNeighbors + k comes before
   /// those whose image k (shaders/fluid/images.glsl) is near; 0 is the neighbors themselves.
   std::vector<uint32_t> neighbors = {};
-  std::vector<uint32_t> cell = {};  ///< cell of each sorted particle, if some particles search the grid
+  std::vector<uint32_t> cell = {};  ///< cell of each particle when they were sorted
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
 };
 

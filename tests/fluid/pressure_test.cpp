@@ -1,0 +1,174 @@
+// Pressure at probes: against the reference, against hydrostatics, and at places without fluid.
+#include "reference/pressure.hpp"
+
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+#include "fluid/rig.hpp"
+
+namespace rill::test {
+namespace pressure_test {
+
+using reference::vec;
+
+void addProbes(Trial& t, std::initializer_list<glm::dvec3> places) {
+  for (const glm::dvec3& at : places)
+    t.scene.probes.push_back({.name = "probe " + std::to_string(t.scene.probes.size()), .pressure = Double3{at.x, at.y, at.z}});
+}
+
+/// Fluid under gravity in a tank, around a ball, with probes inside it, at a wall, in a corner and above.
+Trial tank(uint32_t iterations = 1) {
+  Trial t = trial();
+  setWalls(t, {0.8, 1.2, 0.7});
+  t.scene.solver.iterations = iterations;
+  t.scene.solids = {ball({0.5, 0.3, 0.4}, 0.12)};
+  addOutsideSolids(t, block({12, 9, 11}, t.d(), {0, 0, 0}, 0.05));
+  addProbes(t, {{0.2, 0.2, 0.2}, {0, 0.1, 0.3}, {0, 0, 0}, {0.3, 0.55, 0.3}, {0.3, 0.9, 0.3}, {0.5, 0.3, 0.4}, {40, -3, 1e38}});
+  return t;
+}
+
+class PressureTest : public FluidTest {
+ protected:
+  std::vector<PressureReading> readings(Run& run) {
+    const auto all = run.fluid().pressures();
+    return {all.begin(), all.end()};
+  }
+
+  void expectReferencePressures(const Trial& t, int substeps, double limit) {
+    Oracle oracle(t);
+    const auto& probes = t.scene.probes;
+    std::vector<double> now(probes.size()), integral(probes.size());
+    auto& solver = oracle.solver();
+    solver.onStage = [&](reference::Stage stage) {
+      for (size_t k = 0; k < probes.size(); ++k) {
+        if (stage == reference::Stage::Multipliers)  // the last iteration's counts
+          now[k] = reference::pressureAt(vec(*probes[k].pressure), solver.state.predicted, solver.lambda(), solver.kernel(),
+                                         t.scene.fluid.density, t.step);
+        if (stage == reference::Stage::Velocities) integral[k] += now[k] * t.step;
+      }
+    };
+    oracle.advance(substeps);
+    const double largest = *std::ranges::max_element(integral);
+    ASSERT_GT(largest, 0);
+    for (Gather gather : kGathers) {
+      SCOPED_TRACE(nameOf(gather));
+      Trial own = t;
+      own.gather = gather;
+      auto run = start(own);
+      run->substeps(substeps);
+      const auto found = readings(*run);
+      ASSERT_EQ(found.size(), probes.size());
+      for (size_t k = 0; k < probes.size(); ++k) {
+        EXPECT_EQ(found[k].covered, k == 5) << k;
+        if (found[k].covered) continue;
+        EXPECT_NEAR(found[k].integral, integral[k], limit * largest) << k;
+        EXPECT_NEAR(found[k].mean * substeps * t.step, found[k].integral, 1e-5 * largest) << "one advance";
+      }
+    }
+  }
+};
+
+TEST_F(PressureTest, MatchesReference) { expectReferencePressures(tank(), 10, 2e-3); }
+TEST_F(PressureTest, MatchesReferenceWithIterations) { expectReferencePressures(tank(3), 10, 2e-3); }
+
+TEST_F(PressureTest, MatchesReferenceWithoutWarmStart) {
+  Trial t = tank();
+  t.scene.solver.warm_start = 0;
+  expectReferencePressures(t, 10, 2e-3);
+}
+
+TEST_F(PressureTest, MatchesReferenceForFewAndCoincidentParticles) {
+  Trial t = tank();
+  t.scene.solids.clear();
+  t.x = {{0.2, 0.2, 0.2}, {0.2, 0.2, 0.2}, {0.22, 0.2, 0.2}, {0.01, 0.12, 0.3}, {0.05, 0.02, 0.03}};
+  for (int k = 0; k < 40; ++k) t.x.push_back({0.3 + 0.001 * k, 0.55, 0.3});  // on a line
+  t.scene.probes.erase(t.scene.probes.begin() + 5);
+  Trial five = t;
+  five.scene.probes.resize(5);
+  expectReferencePressures(five, 1, 2e-3);
+}
+
+// Also at walls, where particles are on one side only; where they scatter: means of sixteen.
+TEST_F(PressureTest, IsHydrostaticInFluidAtRest) {
+  Trial t = trial();
+  t.settle = true;
+  setWalls(t, {0.75, 1.5, 0.75});
+  t.x = block({12, 16, 12}, t.d());
+  const double depth = 16 * t.d(), weight = t.scene.fluid.density * 9.81;
+  addProbes(t, {{0.375, 0.5, 0.375}, {0.375, 1.2, 0.375}, {0.375, depth + 0.01, 0.375}});
+  for (int k = 0; k < 16; ++k) {
+    const double u = 0.15 * (1 + k % 4), v = 0.15 * (1 + k / 4);
+    addProbes(t, {{u, 0, v}, {0, v, u}});
+  }
+  t.scene.solver.time_step = {};
+  auto run = start(t);
+  run->advance(1.5);
+  run->advance(0.5);
+  const auto found = readings(*run);
+  EXPECT_NEAR(found[0].mean, weight * (depth - 0.5), 0.05 * weight * depth);
+  EXPECT_EQ(found[1].mean, 0) << "in air";
+  EXPECT_LT(found[2].mean, weight * t.d()) << "just above the surface";
+  double floor = 0, wall = 0, wallDepth = 0;
+  for (size_t k = 0; k < 16; ++k) {
+    floor += found[3 + 2 * k].mean / 16;
+    wall += found[4 + 2 * k].mean / 16;
+    wallDepth += (depth - 0.15 * double(1 + k / 4)) / 16;
+  }
+  EXPECT_NEAR(floor, weight * depth, 0.06 * weight * depth);
+  EXPECT_NEAR(wall, weight * wallDepth, 0.05 * weight * depth);
+}
+
+TEST_F(PressureTest, ContinuesFromSnapshotWithSameBits) {
+  const Trial t = tank();
+  auto run = start(t);
+  run->substeps(7);
+  const FluidSnapshot saved = run->saved();
+  auto other = start(t, &saved);
+  for (size_t k = 0; k < t.scene.probes.size(); ++k) EXPECT_EQ(readings(*run)[k].mean, other->fluid().pressures()[k].mean) << k;
+  run->substeps(5);
+  other->substeps(5);
+  for (size_t k = 0; k < t.scene.probes.size(); ++k) {
+    EXPECT_EQ(readings(*run)[k].mean, readings(*other)[k].mean) << k;
+    EXPECT_EQ(readings(*run)[k].integral, readings(*other)[k].integral) << k;
+  }
+  EXPECT_GT(readings(*run)[0].mean, 0);
+}
+
+TEST_F(PressureTest, IgnoresReadingsOfOtherProbesInSnapshot) {
+  Trial t = tank();
+  auto run = start(t);
+  run->substeps(3);
+  const FluidSnapshot saved = run->saved();
+  t.scene.probes.clear();
+  addProbes(t, {{0.3, 0.2, 0.2}});
+  auto other = start(t, &saved);
+  EXPECT_EQ(other->fluid().pressures()[0].mean, 0);
+  FluidSnapshot cut = saved;
+  cut.pressures.pop_back();
+  const Scene scene = t.timedScene();
+  const ParticleSet particles = t.particles();
+  const auto refused = Fluid::create(rillDevice(), {.scene = &scene, .particles = &particles, .snapshot = &cut});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("pressures has"), std::string::npos) << refused.error().message;
+}
+
+TEST_F(PressureTest, CostsNoPassAndChangesNoBit) {
+  const auto substepped = [&](const Trial& t, bool& hasPass) {
+    auto run = start(t);
+    run->substeps(6);
+    hasPass = false;
+    for (const FluidPassRuns& pass : run->fluid().passRuns()) hasPass |= pass.name == "pressure at probes";
+    return run->snapshot();
+  };
+  Trial t = tank();
+  bool probed = false, plain = false;
+  const Snapshot with = substepped(t, probed);
+  t.scene.probes.clear();
+  EXPECT_EQ(substepped(t, plain), with);
+  EXPECT_TRUE(probed);
+  EXPECT_FALSE(plain);
+}
+
+}  // namespace pressure_test
+}  // namespace rill::test
