@@ -45,6 +45,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      [](const ArrayShape& s) { return s.contactPoints; }},
     {Slips, "slips", "slips of contact points", Fluid, sizeof(SlipRecord), [](const ArrayShape& s) { return s.contactPoints; }},
     {Touched, "touched", "solids that bodies touch", Section, sizeof(TouchedRecord), [](const ArrayShape& s) { return s.bodies; }},
+    {ContactCandidates, "contactCandidates", "what contact points may touch", Section, kWord,
+     [](const ArrayShape& s) { return s.contactPoints; }},
     {PressureProbes, "pressureProbes", "pressure probes", Fluid, sizeof(PressureProbeRecord),
      [](const ArrayShape& s) { return s.pressureProbes; }},
     {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},

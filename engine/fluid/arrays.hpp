@@ -31,6 +31,7 @@ enum class FluidArray : uint8_t {
   ContactPoints,
   Slips,
   Touched,
+  ContactCandidates,
   PressureProbes,
   MeshWords,
   Keyframes,

@@ -169,6 +169,7 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
       record.body = static_cast<uint32_t>(setup.bodies.size());
       if (auto added = addBody(solid, bodyShape(solid.shape, bodyShapes, other), origin, setup); !added) return added.error();
     }
+    record.radius = f(radiusAbout(solid.shape, {0, 0, 0}));
     record.friction = f(solid.friction);
     record.restitution = f(solid.restitution);
     std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);

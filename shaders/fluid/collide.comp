@@ -103,6 +103,7 @@ void main() {
   }
   for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
+    if (isBeyond(centerOf(solids[k].pose), solids[k].radius, x, 1.1 * params.margin + params.spacing)) continue;
     vec3 normal;
     if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal) > 1.1 * params.margin) continue;
     normal = toScene(solids[k].pose, normal);

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"
-READ_UINT(8, meshWord)
+READ_UINT(9, meshWord)
 #define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
@@ -15,6 +15,7 @@ layout(std430, binding = 4) readonly buffer TouchedBlock { TouchedRecord touched
 layout(std430, binding = 5) readonly buffer ContactPointBlock { ContactPointRecord contactPoints[]; };
 layout(std430, binding = 6) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 7) buffer SlipBlock { SlipRecord slips[]; };
+layout(std430, binding = 8) buffer ContactCandidateBlock { uint contactCandidates[]; };
 layout(push_constant) uniform Push { ContactPush push; };
 #include "fluid/bodies.glsl"
 #include "fluid/solid_sums.glsl"
@@ -109,37 +110,50 @@ void touch(Partner own, Partner other, vec3 at, vec3 normal, float depth) {
     solve(own, other, at, normal, depth);
 }
 
+// Those that the point at hand may touch: as its body does, then as the count has found.
+uint mayTouch(uint n, uint body) {
+  if (!COUNTS) return contactCandidates[n];
+  return ((1u << touched[body].count) - 1u) | (touched[body].walls != 0u ? kMayTouchWalls : 0u);
+}
+
 void main() {
   uint n = flatInvocation();
   if (n >= params.contactPoints || bodyStep() <= 0.0) return;
+  uint body = contactPoints[n].body, candidates = mayTouch(n, body), found = 0u;
+  if (COUNTS && candidates == 0u) {
+    slips[n] = counted;
+    contactCandidates[n] = 0u;
+  }
+  if (candidates == 0u) return;
   ContactPointRecord point = contactPoints[n];
   slip = slips[n];
-  uint own = bodies[point.body].solid;
+  uint own = bodies[body].solid;
   PoseRecord pose = solids[own].pose;
   vec3 center = centerOf(pose) + toScene(pose, vec3(point.x, point.y, point.z));
   float margin = COUNTS ? contactMargin() : 0.0;
-  for (uint side = 0u; side < 6u; ++side) {
+  for (uint side = 0u; side < 6u && (candidates & kMayTouchWalls) != 0u; ++side) {
     uint a = side >> 1;
     bool upper = (side & 1u) != 0u;
     float depth = point.radius - (upper ? wallsHigh()[a] - center[a] : center[a] - wallsLow()[a]);
     if (depth <= -margin) continue;
+    found |= kMayTouchWalls;
     vec3 normal = vec3(0.0);
     normal[a] = upper ? -1.0 : 1.0;
     vec3 at = center - point.radius * normal;
     Partner partner = partnerOf(own, at);
     touch(partner, Partner(kWallPartner + side, kNoBody, partner.friction, 0.0, vec3(0.0), vec3(0.0)), at, normal, depth);
   }
-  for (uint m = 0u; m < touched[point.body].count; ++m) {
-    uint k = touched[point.body].solids[m];
-    vec3 apart = centerOf(solids[k].pose) - center;
-    float reach = solidRadius(solids[k].shape) + point.radius + params.spacing;
-    if (dot(apart, apart) > reach * reach) continue;
+  for (uint left = candidates & ~kMayTouchWalls; left != 0u; left &= left - 1u) {
+    uint m = uint(findLSB(left)), k = touched[body].solids[m];
+    if (isBeyond(centerOf(solids[k].pose), solids[k].radius, center, point.radius + params.spacing)) continue;
     vec3 normal;
     float depth = point.radius - surfaceDistance(solids[k].shape, localPoint(solids[k].pose, center), normal);
     if (depth <= -margin) continue;
+    found |= 1u << m;
     normal = toScene(solids[k].pose, normal);
     vec3 at = center - point.radius * normal;
     touch(partnerOf(own, at), partnerOf(k, at), at, normal, depth);
   }
   slips[n] = COUNTS ? counted : slip;
+  if (COUNTS) contactCandidates[n] = found;
 }

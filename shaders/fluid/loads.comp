@@ -47,8 +47,11 @@ void addSolid(inout Reaction r, uint k, vec3 x, vec2 multipliers) {
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
-    vec3 gradient = shareOfImage(solids[k], image) * solidSample(solids[k], image).xyz;
-    add(r, k, multipliers.x * gradient, multipliers.y * gradient, image);
+    vec3 gradient = solidSample(solids[k], image).xyz;
+    if (gradient != vec3(0.0)) {
+      gradient *= shareOfImage(solids[k], image);
+      add(r, k, multipliers.x * gradient, multipliers.y * gradient, image);
+    }
     more = advance(images);
   } LOOP_END(more);
 }

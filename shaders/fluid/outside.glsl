@@ -17,6 +17,8 @@ vec3 outside(vec3 x, uvec3 near, float ahead, out float pushed) {
   pushed = 0.0;
   for (uint n = 0u, k; nextSolid(near, n, k); ++n) {
     if (BODIES && ahead > 0.0 && solids[k].body != kNoBody) continue;  // the density that a body displaces is enough
+    vec3 center = centerOf(solids[k].pose) + ahead * velocityOf(solids[k].pose);
+    if (isBeyond(center, solids[k].radius, x, params.margin + params.spacing)) continue;  // a sheet is thicker than its bounds
     PoseRecord pose = later(solids[k].pose, ahead);
     vec3 normal;
     float distance = surfaceDistance(solids[k].shape, localPoint(pose, x), normal);

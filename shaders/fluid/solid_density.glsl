@@ -32,6 +32,7 @@ vec4 solidSample(SolidRecord s, vec3 x) {
     return vec4(toScene(s.pose, normal * f.y), f.x);
   }
   vec3 half_ = halfExtents(s.shape), slab, slope;
+  if (any(greaterThan(abs(local), half_ + params.support))) return vec4(0.0);
   for (int a = 0; a < 3; ++a) {
     vec2 near = face(local[a] - half_[a]), far = face(local[a] + half_[a]);
     slab[a] = near.x - far.x;
@@ -44,6 +45,7 @@ vec4 solidSample(SolidRecord s, vec3 x) {
 // How much of a solid's image counts, which has x at `image`: of a solid that reaches through a wall the part behind it
 // counts itself, so that its image fades within a spacing.
 float shareOfImage(SolidRecord s, vec3 image) {
+  if (all(greaterThanEqual(image, wallsLow())) && all(lessThanEqual(image, wallsHigh()))) return 1.0;
   vec3 half_ = halfExtents(s.shape), reach = vec3(0.0);  // along the scene's axes
   for (int a = 0; a < 3; ++a) {
     vec3 edge = vec3(0.0);

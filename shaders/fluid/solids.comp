@@ -57,7 +57,9 @@ void main() {
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
-      vec4 solid = shareOfImage(solids[k], image) * solidSample(solids[k], image);
+      vec4 solid = solidSample(solids[k], image);
+      if (solid == vec4(0.0)) continue;
+      solid *= shareOfImage(solids[k], image);
       if (BODIES) stiffness += stiffnessOf(k, solid.xyz, image);
       solid.xyz *= signs;
       displaced += solid;

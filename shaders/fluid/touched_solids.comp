@@ -22,9 +22,8 @@ void main() {
   vec3 middle = centerOf(bodies[n].predicted);
   float reach = bodies[n].radius + contactMargin();
   for (uint k = 0u; k < params.solidCount; ++k) {
-    vec3 apart = centerOf(solids[k].pose) - middle, normal;
-    float most = reach + solidRadius(solids[k].shape) + params.spacing;  // a sheet's surface is half a spacing off
-    if (k == own || dot(apart, apart) > most * most) continue;
+    if (k == own || isBeyond(centerOf(solids[k].pose), solids[k].radius, middle, reach + params.spacing)) continue;  // as in outside.glsl
+    vec3 normal;
     if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, middle), normal) > reach) continue;
     if (count < kMaxTouched)
       touched[n].solids[count++] = k;
@@ -32,5 +31,6 @@ void main() {
       ++skipped;
   }
   touched[n].count = count;
+  touched[n].walls = uint(any(lessThan(middle - reach, wallsLow())) || any(greaterThan(middle + reach, wallsHigh())));
   if (skipped > 0u) atomicAdd(sums.boundHits, skipped);
 }

@@ -43,8 +43,12 @@ RILL_CONST uint kWallPartner = 0x10000u;
 RILL_CONST uint kMaxTouched = 31u;
 struct TouchedRecord {
   uint count;
+  uint walls;      // 1: it may touch some
   uint solids[kMaxTouched];
 };
+
+// What a contact point may touch in a substep: a bit for each solid of its body's TouchedRecord, and this one for walls.
+RILL_CONST uint kMayTouchWalls = 1u << kMaxTouched;
 
 RILL_RECORDS_END
 #endif

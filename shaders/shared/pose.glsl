@@ -23,6 +23,13 @@ vec3 toScene(PoseRecord p, vec3 local) { return rotate(rotationOf(p), local); }
 vec3 toSolid(PoseRecord p, vec3 direction) { return rotate(vec4(-p.rotationX, -p.rotationY, -p.rotationZ, p.rotationW), direction); }
 vec3 localPoint(PoseRecord p, vec3 x) { return toSolid(p, x - centerOf(p)); }
 
+// Whether x is farther than `reach` from the sphere of this radius around a center.
+bool isBeyond(vec3 center, float radius, vec3 x, float reach) {
+  vec3 apart = x - center;
+  float far = radius + reach;
+  return dot(apart, apart) > far * far;
+}
+
 // Of the point of the solid that is at x, m/s.
 vec3 velocityAt(PoseRecord p, vec3 x) {
   return velocityOf(p) + cross(angularVelocity(p), x - centerOf(p));

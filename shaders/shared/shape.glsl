@@ -10,9 +10,6 @@
 vec3 halfExtents(ShapeRecord s) { return vec3(s.halfX, s.halfY, s.halfZ); }
 vec3 middleOf(ShapeRecord s) { return vec3(s.middleX, s.middleY, s.middleZ); }
 
-// Of the sphere around the center that holds the shape.
-float solidRadius(ShapeRecord s) { return s.kind == kShapeSphere ? s.halfX : length(abs(middleOf(s)) + halfExtents(s)); }
-
 // Signed distance to the surface (negative inside) and the outward normal. Edges of boxes are round outside.
 float surfaceDistance(ShapeRecord s, vec3 local, out vec3 normal) {
 #ifdef MESH_WORDS

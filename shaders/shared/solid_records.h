@@ -35,6 +35,7 @@ struct SolidRecord {
   PoseRecord pose;
   ShapeRecord shape;
   float friction, restitution;
+  float radius;                // m, of the sphere around the center that holds the shape
   PoseRecord base;             // before any motion; of a driven solid its center is 0
   uint firstKey, keyCount;     // entries of the keyframe buffer
   uint driven;                 // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
