@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "capture/output_folder.hpp"
+#include "capture/pose_table.hpp"
 #include "capture/record.hpp"
 #include "capture/video.hpp"
 #include "core/words.hpp"
@@ -56,6 +57,7 @@ class Capture {
     if (const auto made = createOutputs(); !made) return refuse(made.error());
     announce();
 
+    if (options_.exportPoses) poses_.emplace(scene_);
     record_ = std::make_unique<Record>(simulation_->scene(), simulation_->device(), options_.command, first_ > 0 ? (first_ - 1) / fps_ : 0);
     const Expected<void> ran = runFrames();
     progress_.clear();
@@ -66,6 +68,8 @@ class Capture {
     // After a failure, too: the figures and the video of the frames so far are complete.
     if (video_)
       if (const auto finished = video_->finish(); !finished) code = fail(finished.error());
+    if (poses_)
+      if (const auto written = apps::writeFile(folder_->file("poses.csv"), poses_->text()); !written) code = fail(written.error());
     if (const auto written = writeStats(); !written) code = fail(written.error());
     if (const auto written = writeGraph(); !written) code = fail(written.error());
     if (const auto reported = report(); !reported) code = fail(reported.error());
@@ -76,7 +80,7 @@ class Capture {
 
  private:
   bool rendersImages() const { return options_.images || options_.video; }
-  bool writesFrames() const { return options_.images || options_.exportPly; }
+  bool writesFrames() const { return options_.images || options_.exportPly || options_.exportPoses; }
 
   Expected<void> readScene() {
     const auto file = apps::SceneFolders::standard().find(options_.scene);
@@ -203,6 +207,8 @@ class Capture {
       if (video_)
         if (auto added = video_->add(*image); !added) return added;
     }
+    if (poses_)
+      if (auto added = poses_->add(k, time_s, *simulation_); !added) return added;
     if (!options_.exportPly) return {};
     auto particles = simulation_->particles();
     if (!particles) return particles.error();
@@ -237,12 +243,13 @@ class Capture {
         text += "\n";
       }
     }
-    if (!options_.quiet && folder_ && record_->frames() > 0) {
+    if (!options_.quiet && (options_.images || options_.exportPly) && record_->frames() > 0) {
       const auto last = static_cast<uint32_t>(first_ + record_->frames() - 1);
       const char* kind = options_.images ? "png" : "ply";
       message("frames: " + folder_->frame(first_, kind).string() +
               (last > first_ ? " to " + folder_->frame(last, kind).filename().string() : ""));
     }
+    if (!options_.quiet && poses_) message("poses: " + folder_->file("poses.csv").string());
     if (!options_.quiet)
       for (const std::string& warning : record_->warnings()) message(warning);
     if (!options_.quiet && video_ && video_->finished()) message("video: " + options_.video->string());
@@ -285,6 +292,7 @@ class Capture {
   std::optional<offline::Simulation> simulation_;
   std::unique_ptr<OutputFolder> folder_;
   std::optional<Video> video_;
+  std::optional<PoseTable> poses_;
   std::unique_ptr<Record> record_;
 };
 

@@ -28,9 +28,9 @@ constexpr uint64_t kMaxPixels = 1ull << 25;  // an image is one buffer of 128 Mi
 
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
-  std::string scene, frames, fps, size, out, view, video, stats, exportAs, particles, device, checkpoint, checkpointEvery, resume, play,
-      orbit, graph, reads;
-  std::vector<std::string> set, require;
+  std::string scene, frames, fps, size, out, view, video, stats, particles, device, checkpoint, checkpointEvery, resume, play, orbit, graph,
+      reads;
+  std::vector<std::string> set, require, exportAs;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
 
@@ -71,7 +71,8 @@ void declare(CLI::App& app, Raw& raw) {
   once("--orbit", raw.orbit, "rotate the camera about its target, in degrees per simulated second", "DEG_PER_S", written);
   once("--video", raw.video, "also write the images as a video (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
   app.add_flag("--no-images", raw.noImages, "write no image files; without --video render none")->group(written);
-  once("--export", raw.exportAs, "write the particles of each frame; FORMAT is ply", "FORMAT", written);
+  list("--export", raw.exportAs, "write the particles of each frame (ply), or where the solids are (poses: DIR/poses.csv); may be repeated",
+       "FORMAT", written);
   once("--stats", raw.stats, "write all figures of all frames as JSON; - is standard output", "FILE", written);
 
   once("--graph", raw.graph, "write the render graph of the last image (without images: of the last simulation step) for Graphviz",
@@ -158,8 +159,10 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
     options.orbit_degPerS = *orbit;
   }
   if (given("--export")) {
-    if (raw.exportAs != "ply") return badInput("--export", raw.exportAs, "ply");
-    options.exportPly = true;
+    for (const std::string& format : raw.exportAs) {
+      if (format != "ply" && format != "poses") return badInput("--export", format, "ply or poses");
+      (format == "ply" ? options.exportPly : options.exportPoses) = true;
+    }
   }
   if (given("--particles")) {
     const auto particles = numberIn<uint64_t>(raw.particles);

@@ -30,7 +30,7 @@ struct Options {
   std::optional<std::filesystem::path> video;  ///< video file of the images
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> graph;  ///< passes of the last image, in Graphviz's dot language
-  bool exportPly = false;
+  bool exportPly = false, exportPoses = false;
   std::optional<std::filesystem::path> checkpoint;  ///< file to write
   std::optional<double> checkpointEvery_s;          ///< wall time
   std::optional<std::filesystem::path> resume;      ///< checkpoint to resume from

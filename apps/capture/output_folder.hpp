@@ -14,6 +14,9 @@ class OutputFolder {
   /// capture, frame_NNNNN.png and .ply. Other files stay.
   static Expected<OutputFolder> prepare(const std::filesystem::path& folder, bool keep = false);
 
+  /// DIR/NAME
+  std::filesystem::path file(const char* name) const { return folder_ / name; }
+
   /// DIR/frame_00042.EXTENSION
   std::filesystem::path frame(uint32_t number, const char* extension) const;
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "support/small_dam.hpp"
 
@@ -73,6 +76,26 @@ TEST_F(CaptureTest, WritesImagesParticlesAndFigures) {
   EXPECT_NE(ply.find("comment time 0.03333333333333333\n"), std::string::npos);
   EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 600 * 32);
   EXPECT_EQ(stats("also/made/s.json")["frames"].size(), 3u);
+}
+
+TEST_F(CaptureTest, WritesPosesOfSolids) {
+  const char* solids =
+      R"(solids=[{"name": "crate, \"red\"", "box": {"min": [0.7, 0.8, 0.1], "max": [0.8, 0.9, 0.2]}, "body": {"density": 500}},
+                          {"sphere": {"center": [0.6, 0.8, 0.1], "radius": 0.05}, "motion": [{"at": 0}, {"at": 1, "translate": [0, 0.5, 0]}]}])";
+  ASSERT_EQ(run({"--set", "rill=\"0.2\"", "--set", solids, "--frames", "3", "--fps", "10", "--no-images", "--export", "poses", "--export",
+                 "ply", "--out", "moved"})
+                .code,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "moved/frame_00002.ply"));
+  std::istringstream table(contentOf(folder / "moved/poses.csv"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(table, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 7u) << "a header, and two solids in three frames";
+  EXPECT_TRUE(lines[0].starts_with("frame,time_s,solid,name,x_m,y_m,z_m,qx,qy,qz,qw,")) << lines[0];
+  EXPECT_TRUE(lines[1].starts_with("0,0,0,\"crate, \"\"red\"\"\",0.75")) << lines[1];
+  EXPECT_TRUE(lines[6].starts_with("2,0.2,1,,0.6,0.90000")) << lines[6];
+  const std::string place = lines[5].substr(lines[5].find("\",") + 2);
+  EXPECT_NEAR(std::stod(place.substr(place.find(',') + 1)), 0.85 - 0.5 * 9.81 * 0.04, 0.01) << "the crate falls: " << lines[5];
 }
 
 TEST_F(CaptureTest, ExplainListsRunAndSkippedPasses) {
