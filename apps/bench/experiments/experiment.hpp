@@ -51,9 +51,10 @@ std::vector<Experiment> sloshExperiments();
 std::vector<Experiment> ellipticExperiments();
 std::vector<Experiment> freeExperiments();  ///< free fall; momentum of a drop
 std::vector<Experiment> jetExperiments();
-std::vector<Experiment> liftExperiments();      ///< lift of held solids
-std::vector<Experiment> bodyExperiments();      ///< rigid bodies in water
-std::vector<Experiment> obstacleExperiments();  ///< dam breaks over meshes and over the exact shapes
+std::vector<Experiment> liftExperiments();        ///< lift of held solids
+std::vector<Experiment> bodyExperiments();        ///< rigid bodies in water
+std::vector<Experiment> waterEntryExperiments();  ///< force on a wedge
+std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
 /// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.
 Expected<RunFigures> runSampled(const Bench& bench, const Scene& scene, double duration_s, double frame_s,

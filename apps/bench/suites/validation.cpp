@@ -36,7 +36,7 @@ constexpr Convergence kConvergenceFigures[] = {{"slosh", "period", "Slosh: error
 std::vector<Experiment> experiments() {
   std::vector<Experiment> all;
   for (const auto& family : {columnExperiments(), tankExperiments(), sloshExperiments(), ellipticExperiments(), freeExperiments(),
-                             jetExperiments(), liftExperiments(), bodyExperiments(), obstacleExperiments()})
+                             jetExperiments(), liftExperiments(), bodyExperiments(), waterEntryExperiments(), obstacleExperiments()})
     all.insert(all.end(), family.begin(), family.end());
   return all;
 }
