@@ -112,11 +112,14 @@ BodyRecord bodyRecord(const Solid& solid, const MassProperties& m, uint32_t inde
 Expected<void> addBody(const Solid& solid, const BodyShape& shape, const Double3& origin, FluidSetup& setup) {
   const auto index = static_cast<uint32_t>(setup.solids.size());
   const MassProperties m = massOf(solid, shape.unit);
-  if (!fits(m))
+  if (!fits(m)) {
+    const bool crossed = !(m.inertia[0] > 0 && m.inertia[1] > 0 && m.inertia[2] > 0);
     return Error{ErrorKind::BadInput, elementPath("solids", index) + ".body: a mass of " + roundedNumber(m.mass) +
                                           " kg and moments of inertia of " + roundedNumber(m.inertia[0]) + ", " +
-                                          roundedNumber(m.inertia[1]) + " and " + roundedNumber(m.inertia[2]) +
-                                          " kg m^2 do not fit 32-bit floats; expected 1e-30 to 1e30, and no moment 1e-6 of another"};
+                                          roundedNumber(m.inertia[1]) + " and " + roundedNumber(m.inertia[2]) + " kg m^2 " +
+                                          (crossed ? "are not those of a solid; expected a mesh that does not cross itself"
+                                                   : "do not fit 32-bit floats; expected 1e-30 to 1e30, and no moment 1e-6 of another")};
+  }
   setup.movingSolids = true;
   setup.bodies.push_back(bodyRecord(solid, m, index, origin));
   for (const ContactPoint& point : shape.points)

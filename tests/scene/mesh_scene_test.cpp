@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fluid/settings.hpp"
+#include "shape/mass.hpp"
 #include "support.hpp"
 #include "support/meshes.hpp"
 #include "support/tetrahedron_files.hpp"
@@ -65,6 +67,57 @@ TEST_F(MeshScene, ErrorsNameTheKeyAndTheFile) {
   EXPECT_NE(errorOf(R"("solids": [{"mesh": {"file": "m.obj", "scale": 0}}])").find("solids[0].mesh.scale"), std::string::npos);
   EXPECT_NE(errorOf(R"("solids": [{"name": "a", "mesh": {"file": "m.obj"}}, {"name": "a", "mesh": {"file": "m.obj"}}])").find("name"),
             std::string::npos);
+}
+
+// Two lobes of one closed surface that crosses itself, so that what one encloses counts against the other.
+std::string crossedPrism(double lobe) {
+  const std::string x = std::to_string(lobe);
+  std::string text;
+  for (const char* z : {" 0\n", " 1\n"})
+    text += "v -1 -1" + std::string(z) + "v -1 1" + z + "v " + x + " -" + x + z + "v " + x + " " + x + z;
+  // The outline -1 -1, -1 1, x -x, x x crosses itself in the middle.
+  return text + "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 1 4 3 2\nf 5 6 7 8\n";
+}
+
+TEST_F(MeshScene, RejectsBodiesOfMeshesWithoutAMass) {
+  const auto bodyOf = [&](const std::string& file, const std::string& more = "") {
+    return errorOf(R"("solids": [{"box": {}}, {"mesh": {"file": ")" + file + "\"" + more + R"(}, "body": {"density": 500}}])");
+  };
+  folder.write("good.obj", tetrahedronObj());
+  folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  folder.write("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
+  folder.write("crossed.obj", crossedPrism(1));
+  EXPECT_EQ(bodyOf("good.obj"), "no error");
+  const std::pair<std::string, std::string> cases[] = {{bodyOf("open.obj"), "open.obj: the mesh is not closed: found 3 open edges"},
+                                                       {bodyOf("flat.obj"), "flat.obj: the mesh encloses 0 m^3; expected a volume"},
+                                                       {bodyOf("point.obj"), "point.obj: found no triangle with three corners"},
+                                                       {bodyOf("crossed.obj"), "crossed.obj: the mesh encloses 0 m^3; expected a volume"}};
+  for (const auto& [error, words] : cases) {
+    EXPECT_EQ(error.rfind("s.json: solids[1].mesh.file: ", 0), 0U) << error;
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  }
+  EXPECT_NE(bodyOf("open.obj", R"(, "two_sided": true)").find("solids[1].body: found a body of a two-sided mesh"), std::string::npos);
+}
+
+// A volume is left, but the moments of one lobe count against those of the other.
+TEST_F(MeshScene, RejectsBodiesWhoseMeshCrossesItself) {
+  folder.write("crossed.obj", crossedPrism(0.99));
+  const auto scene = load(R"("solids": [{"box": {}}, {"mesh": {"file": "crossed.obj"}, "body": {"density": 500}}])");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto setup = makeFluidSetup(*scene, {.capacity = 1, .extent = {1, 1, 1}});
+  ASSERT_FALSE(setup);
+  for (const char* words : {"s.json: solids[1].body: a mass of 9.95 kg", "expected a mesh that does not cross itself"})
+    EXPECT_NE(setup.error().message.find(words), std::string::npos) << setup.error().message;
+}
+
+TEST_F(MeshScene, TurnsBodiesThatAreInsideOut) {
+  folder.write("turned.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  const auto scene = load(R"("solids": [{"mesh": {"file": "turned.obj"}, "body": {"density": 600}}])");
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_NEAR(massOf(scene->solids[0]).mass, 100, 1e-9);
+  EXPECT_EQ(std::get<MeshShape>(scene->solids[0].shape).mesh->warnings(),
+            std::vector<std::string>{"the mesh was inside out: all triangles turned"});
 }
 
 TEST(MeshFill, HasItsVolumeInParticles) {

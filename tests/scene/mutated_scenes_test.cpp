@@ -7,6 +7,7 @@
 #include "fluid/settings.hpp"
 #include "model/fields.hpp"
 #include "support.hpp"
+#include "support/meshes.hpp"
 #include "tank.hpp"
 
 namespace rill::test {
@@ -86,6 +87,14 @@ StartFigures figuresOf(const ParticleSet& set) {
   return start;
 }
 
+void addBodies(Scene& scene) {
+  scene.solids[0].body = Body{.density = 500, .velocity = {0, 1, 0}, .locked = 0b110};
+  const Body held{.mass = 2, .angular_velocity = {1, 0, 0}, .from = 0.5};
+  scene.solids.push_back({.shape = SphereShape{{0.3, 0.7, 0.3}, 0.1}, .body = held});
+  scene.solids.push_back(
+      {.shape = MeshShape{.mesh = meshOf(ballMesh(0.1, 1))}, .translation = {0.6, 0.8, 0.6}, .body = Body{.density = 2000}});
+}
+
 TEST(MutatedScenes, AreRejectedOrRun) {
   constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kValues[] = {nan, inf, -inf, 1e300, -1e300, 3e38, -3e38, 1e20, 1e-20, 1e-44, -1e-44, 1, -1, 4, 100, 0};
@@ -95,6 +104,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
   int rejected = 0, ran = 0;
   for (int round = 0; round < 4000; ++round) {
     Scene scene = tank();
+    if (round % 2 == 1) addBodies(scene);
     const Numbers numbers(scene);
     for (size_t changes = 1 + below(3); changes > 0; --changes) {
       const double factor = kFactors[below(std::size(kFactors))];
@@ -125,6 +135,11 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     }
     ++ran;
     EXPECT_LE(setup->grid.cells(), maxGridCells(made->positions.size()));
+    for (const BodyRecord& body : setup->bodies) {
+      EXPECT_GT(body.mass, 0) << round;
+      for (const float number : {body.mass, body.inertiaXX, body.inertiaYY, body.inertiaZZ, body.radius, body.state.velocityX})
+        EXPECT_TRUE(std::isfinite(number)) << round;
+    }
     EXPECT_GT(setup->longestStep, 0) << round;
     EXPECT_TRUE(std::isfinite(setup->longestStep)) << round;
     for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.pose.centerX)) << round;
