@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 
+#include "core/words.hpp"
 #include "fluid/arrays.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "shape/records.hpp"
@@ -103,15 +104,16 @@ bool valid(const PoseRecord& p) {
 }
 
 Expected<void> checkBodies(const FluidSnapshot& s) {
-  for (size_t k = 0; k < s.bodies.size(); k += kBodyWords) {
+  for (size_t k = 0; k < s.bodies.size() / kBodyWords; ++k) {
     BodyRecord body;
-    std::memcpy(&body, s.bodies.data() + k, sizeof body);
+    std::memcpy(&body, s.bodies.data() + k * kBodyWords, sizeof body);
     if (!valid(body.state) || !valid(body.predicted) || !(body.stiffness >= 0 && body.stiffness < 1e30F))
-      return wrong("the motion of a body is not finite");
+      return wrong(elementPath("bodies", k) + " has a motion that is not valid; expected finite numbers and a unit quaternion");
   }
-  for (size_t k = 0; k < s.slips.size(); k += kSlipWords)
+  for (size_t k = 0; k < s.slips.size() / kSlipWords; ++k)
     for (size_t word = 1; word < kSlipWords; ++word)
-      if (!std::isfinite(std::bit_cast<float>(s.slips[k + word]))) return wrong("the slip of a contact of a body is not finite");
+      if (!std::isfinite(std::bit_cast<float>(s.slips[k * kSlipWords + word])))
+        return wrong(elementPath("slips", k) + " is not finite; expected finite numbers");
   return {};
 }
 

@@ -33,7 +33,7 @@ void checkRoundTrip(const std::vector<std::byte>& bytes) {
   const auto encoded = offline::encodeCheckpoint(*checkpoint);
   RILL_REQUIRE(encoded.size() == bytes.size());
   RILL_REQUIRE(offline::decodeCheckpoint(encoded, "fuzz"));
-  loadIntoFluid(checkpoint->fluid, seedShape());
+  for (const SnapshotShape& shape : {seedShape(), seedShapeWithBodies()}) loadIntoFluid(checkpoint->fluid, shape);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include "fuzz/require.hpp"
 #include "fuzz/targets.hpp"
 #include "scene/mesh_readers.hpp"
+#include "shape/contact_points.hpp"
+#include "shape/mass.hpp"
 
 namespace rill::test {
 namespace {
@@ -17,6 +19,14 @@ Expected<MeshData> readAs(char format, const uint8_t* data, size_t size) {
   if (format == 'g' || format == 'b') return readGltf(bytes, file, format == 'b');
   const MemoryFile memory(data, size);
   return readPlyMesh(memory.path());
+}
+
+/// What a body of the mesh needs.
+void asBody(const MeshShape& shape) {
+  RILL_REQUIRE(massOf(shape, 1000).mass > 0);
+  const std::vector<ContactPoint> points = contactPoints(shape);
+  RILL_REQUIRE(!points.empty() && points.size() <= kMaxContactPoints);
+  for (const ContactPoint& p : points) RILL_REQUIRE(std::isfinite(p.center.x) && std::isfinite(p.center.y) && std::isfinite(p.center.z));
 }
 
 }  // namespace
@@ -41,6 +51,7 @@ int fuzzMesh(const uint8_t* data, size_t size) {
     if (mesh->triangles.size() > kFew) break;
     const auto made = Mesh::create(*mesh, twoSided);
     RILL_REQUIRE(made ? twoSided || (*made)->volume() > 0 : !made.error().message.empty());
+    if (made && !twoSided) asBody(MeshShape{.mesh = *made});
   }
   return 0;
 }

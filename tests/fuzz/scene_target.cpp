@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "fluid/settings.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/targets.hpp"
 #include "offline/simulation_keys.hpp"
@@ -33,6 +34,10 @@ int fuzzScene(const uint8_t* data, size_t size) {
     return 0;
   }
   RILL_REQUIRE(particles->positions.size() <= 2000 && particles->velocities.size() == particles->positions.size());
+  scene->fluid.spacing = particles->spacing;
+  const auto setup = makeFluidSetup(
+      *scene, {.capacity = static_cast<uint32_t>(particles->positions.size()), .origin = particles->origin, .extent = {1, 1, 1}});
+  RILL_REQUIRE(setup || !setup.error().message.empty());
   const SimulationKeys keys = simulationKeys(*scene, *particles);
   RILL_REQUIRE(firstDifference(keys, keys).empty());
   return 0;

@@ -10,13 +10,20 @@
 
 namespace rill::test {
 
-/// All scenes of assets/scenes, and one with overrides.
+/// All scenes of assets/scenes, two with the keys of bodies, and one with overrides.
 inline std::vector<std::string> sceneSeeds() {
   std::vector<std::string> seeds;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes"))
     if (entry.path().extension() == ".json" && !entry.path().filename().string().ends_with(".schema.json"))
       seeds.push_back(contentOf(entry.path()));
   std::sort(seeds.begin(), seeds.end());
+  seeds.push_back(R"({"rill": "0.2", "domain": {}, "fluid": {"spacing": 0.1}, "fill": [{"box": {"max": [1, 0.5, 1]}}], "solids": [
+    {"name": "crate", "box": {"max": [0.3, 0.4, 0.5]}, "rotation": [0, 0, 1, 1], "friction": 0.3, "restitution": 0.5, "body":
+      {"mass": 2, "velocity": [1, 0, -1], "angular_velocity": [0, 0, 3], "locked": ["y", "rx", "ry"], "from": 0.25}},
+    {"name": "ball", "sphere": {"center": [0.6, 0.7, 0.5], "radius": 0.2}, "body": {"density": 300}}],
+    "probes": [{"name": "load", "load": "crate"}, {"name": "pose", "pose": "ball"}]})");
+  seeds.push_back(R"({"rill": "0.2", "fluid": {"spacing": 0.1}, "solids": [
+    {"mesh": {"file": "ball.obj", "scale": 0.1, "up": "z"}, "translation": [0, 1, 0], "body": {"density": 7800}}]})");
   seeds.push_back(seeds.front() + '\0' + "fluid.viscosity=0.1\nsolver.time_step=auto\nfill[0].jitter=0.2\nprobes=[]");
   return seeds;
 }
@@ -60,7 +67,7 @@ inline std::vector<std::string> checkpointSeeds() {
   FluidSnapshot& s = withoutList.fluid;
   s.control[offsetof(FluidControl, listState) / 4] = kListDue;
   for (auto* array : {&s.neighborCount, &s.neighbors, &s.cell}) array->clear();
-  for (const offline::Checkpoint& c : {seedCheckpoint(), withoutList, empty}) {
+  for (const offline::Checkpoint& c : {seedCheckpoint(), seedCheckpointWithBodies(), withoutList, empty}) {
     const auto bytes = offline::encodeCheckpoint(c);
     seeds.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }

@@ -1,6 +1,10 @@
 // Checkpoint files: round trips and errors.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
+#include <limits>
+
 #include "fluid/neighbor_list.hpp"
 #include "fluid/snapshot.hpp"
 #include "rill/offline.hpp"
@@ -20,12 +24,13 @@ std::string decodeError(std::span<const std::byte> bytes) {
 }
 
 TEST(CheckpointFile, RoundTrips) {
-  const Checkpoint c = seedCheckpoint();
-  const auto bytes = offline::encodeCheckpoint(c);
-  const auto read = offline::decodeCheckpoint(bytes, "run.rill");
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(*read, c);
-  EXPECT_EQ(offline::encodeCheckpoint(*read), bytes);
+  for (const Checkpoint& c : {seedCheckpoint(), seedCheckpointWithBodies()}) {
+    const auto bytes = offline::encodeCheckpoint(c);
+    const auto read = offline::decodeCheckpoint(bytes, "run.rill");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, c);
+    EXPECT_EQ(offline::encodeCheckpoint(*read), bytes);
+  }
   const Checkpoint nothing;
   const auto empty = offline::decodeCheckpoint(offline::encodeCheckpoint(nothing), "run.rill");
   ASSERT_TRUE(empty) << empty.error().message;
@@ -33,7 +38,7 @@ TEST(CheckpointFile, RoundTrips) {
 }
 
 TEST(CheckpointFile, RejectsTruncationAnywhere) {
-  const auto bytes = offline::encodeCheckpoint(seedCheckpoint());
+  const auto bytes = offline::encodeCheckpoint(seedCheckpointWithBodies());
   for (size_t size = 1; size < bytes.size(); ++size) {
     const std::string why = decodeError(std::span(bytes).first(size));
     EXPECT_NE(why.find("is truncated"), std::string::npos) << size << ": " << why;
@@ -120,13 +125,57 @@ TEST(CheckpointFile, LoadsFromDisk) {
 class SnapshotCheck : public ::testing::Test {
  protected:
   void expectRejected(const char* words) {
-    const auto checked = checkSnapshot(s, seedShape());
+    const auto checked = checkSnapshot(s, wanted);
     ASSERT_FALSE(checked) << words;
     EXPECT_NE(checked.error().message.find(words), std::string::npos) << checked.error().message;
-    s = seedCheckpoint().fluid;
+    s = good;
   }
-  FluidSnapshot s = seedCheckpoint().fluid;
+  FluidSnapshot good = seedCheckpoint().fluid, s = good;
+  SnapshotShape wanted = seedShape();
 };
+
+class BodySnapshotCheck : public SnapshotCheck {
+ protected:
+  void SetUp() override {
+    s = good = seedCheckpointWithBodies().fluid;
+    wanted = seedShapeWithBodies();
+  }
+  static void set(std::vector<uint32_t>& words, size_t at, float value) { words[at] = std::bit_cast<uint32_t>(value); }
+};
+
+TEST_F(BodySnapshotCheck, AcceptsMatchingScene) {
+  const auto checked = checkSnapshot(s, wanted);
+  EXPECT_TRUE(checked) << checked.error().message;
+}
+
+TEST_F(BodySnapshotCheck, RejectsOtherCountsOfBodies) {
+  s.bodies.resize(kBodyWords);
+  expectRejected("bodies has 50 entries; expected 100");
+  s.bodies.clear();
+  expectRejected("bodies has 0 entries; expected 100");
+  s.slips.pop_back();
+  expectRejected("slips has 14 entries; expected 15");
+  EXPECT_FALSE(checkSnapshot(s, seedShape())) << "a scene without bodies";
+  EXPECT_FALSE(checkSnapshot(seedCheckpoint().fluid, wanted)) << "a snapshot without bodies";
+}
+
+TEST_F(BodySnapshotCheck, RejectsMotionsThatAreNotValid) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  for (const float value : {nan, inf, -inf, 1e30f}) {
+    for (const size_t word : {offsetof(PoseRecord, centerX), offsetof(PoseRecord, velocityY), offsetof(PoseRecord, angularZ),
+                              offsetof(BodyRecord, predicted) + offsetof(PoseRecord, velocityX), offsetof(BodyRecord, stiffness)}) {
+      set(s.bodies, kBodyWords + word / 4, value);
+      expectRejected("bodies[1] has a motion that is not valid");
+    }
+    if (std::isfinite(value)) continue;
+    set(s.slips, 2 * kSlipWords + 3, value);
+    expectRejected("slips[2] is not finite");
+  }
+  set(s.bodies, offsetof(PoseRecord, rotationW) / 4, 0.5f);
+  expectRejected("bodies[0] has a motion that is not valid; expected finite numbers and a unit quaternion");
+  set(s.bodies, offsetof(BodyRecord, stiffness) / 4, -1);
+  expectRejected("bodies[0]");
+}
 
 TEST_F(SnapshotCheck, AcceptsMatchingScene) {
   const auto checked = checkSnapshot(s, seedShape());

@@ -1,11 +1,15 @@
 // rill-capture --checkpoint and --resume: a resumed run equals one without interruption.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "rill/offline.hpp"
+#include "shared/solid_records.h"
 #include "support/child_process.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/tetrahedron_files.hpp"
 
 namespace rill::test {
 namespace checkpoint_test {
@@ -166,6 +170,63 @@ TEST_F(CheckpointTest, RejectsInvalidFiles) {
   expectRefused({"--resume", "changed.rill"}, {"--resume", "is corrupted"});
   expectRefused({"--resume", "cut.rill"}, {"--resume", "is truncated"});
   expectRefused({"--resume", "."}, {"--resume", "is not a regular file"});
+}
+
+/// A box that floats, a mesh that falls on it, and one that is held for a while.
+constexpr const char* kBodies = R"({
+  "rill": "0.2", "duration": 0.2,
+  "domain": {"min": [0, 0, 0], "max": [0.6, 0.8, 0.6]},
+  "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [0.6, 0.3, 0.6]}}],
+  "solids": [
+    {"name": "crate", "box": {"min": [0.1, 0.2, 0.1], "max": [0.35, 0.4, 0.4]}, "friction": 0.4, "body": {"density": 500}},
+    {"mesh": {"file": "m.obj", "scale": 0.3}, "translation": [0.15, 0.42, 0.15], "friction": 0.3, "body": {"mass": 3, "velocity": [0, -1, 0]}},
+    {"sphere": {"center": [0.45, 0.3, 0.45], "radius": 0.1}, "body": {"density": 2000, "from": 0.08}}],
+  "probes": [{"name": "crate", "pose": "crate"}, {"name": "load", "load": "crate"}]
+})";
+
+TEST_F(CheckpointTest, ResumedRunOfBodiesEqualsUninterruptedRun) {
+  folder.write("m.obj", tetrahedronObj());
+  folder.write("dam.json", kBodies);
+  figures({"--frames", "10", "--stats", "whole.json"});
+  figures({"--frames", "4", "--checkpoint", "run.rill"});
+  figures({"--frames", "6", "--resume", "run.rill", "--checkpoint", "end.rill", "--stats", "rest.json"});
+  const auto whole = frames("whole.json"), rest = frames("rest.json");
+  EXPECT_EQ(rest, std::vector<Json>(whole.begin() + 4, whole.end())) << "all figures, poses and loads, bitwise";
+
+  auto run = offline::Simulation::open(*loadScene(folder / "dam.json"));
+  ASSERT_TRUE(run);
+  for (int k = 1; k < 10; ++k) ASSERT_TRUE(run->advance(k / 60.0 - run->time()));
+  const auto end = offline::loadCheckpoint(folder / "end.rill");
+  const auto uninterrupted = run->checkpoint();
+  ASSERT_TRUE(end && uninterrupted);
+  EXPECT_EQ(end->fluid, uninterrupted->fluid);
+}
+
+TEST_F(CheckpointTest, RejectsDamagedBodies) {
+  folder.write("m.obj", tetrahedronObj());
+  folder.write("dam.json", kBodies);
+  figures({"--frames", "2", "--checkpoint", "run.rill"});
+  const auto good = offline::loadCheckpoint(folder / "run.rill");
+  ASSERT_TRUE(good);
+  const size_t words = good->fluid.bodies.size() / 3;  // of a body
+  const auto refused = [&](const auto& change, const std::string& message) {
+    offline::Checkpoint damaged = *good;
+    change(damaged.fluid);
+    const auto bytes = offline::encodeCheckpoint(damaged);
+    folder.write("damaged.rill", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    expectRefused({"--resume", "damaged.rill"}, {"--resume: \"damaged.rill\": the state does not fit the scene: " + message});
+  };
+  const auto nan = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
+  refused([&](FluidSnapshot& s) { s.bodies[words + offsetof(PoseRecord, velocityY) / 4] = nan; },
+          "bodies[1] has a motion that is not valid");
+  refused([&](FluidSnapshot& s) { s.slips[1] = nan; }, "slips[0] is not finite");
+  refused([&](FluidSnapshot& s) { s.bodies.resize(2 * words); },
+          "bodies has " + std::to_string(2 * words) + " entries; expected " + std::to_string(3 * words));
+  refused([&](FluidSnapshot& s) { s.slips.clear(); }, "slips has 0 entries; expected ");
+  const std::string whole = contentOf(folder / "run.rill");
+  folder.write("cut.rill", whole.substr(0, whole.size() / 2));
+  expectRefused({"--resume", "cut.rill"}, {"--resume: \"cut.rill\" is truncated"});
 }
 
 TEST_F(CheckpointTest, RejectsChangedParticleFile) {

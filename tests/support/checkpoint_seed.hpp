@@ -14,6 +14,13 @@ inline SnapshotShape seedShape() {
   return {.capacity = 6, .solidCount = 1, .listCapacity = 4, .cells = 256, .segments = true, .movingSolids = true};
 }
 
+template <class Record>
+std::vector<uint32_t> wordsOfRecord(const Record& record) {
+  std::vector<uint32_t> all(sizeof record / 4);
+  std::memcpy(all.data(), &record, sizeof record);
+  return all;
+}
+
 /// Six particles: two near a solid, one of them with more neighbors than its list holds.
 inline offline::Checkpoint seedCheckpoint() {
   offline::Checkpoint c;
@@ -32,13 +39,8 @@ inline offline::Checkpoint seedCheckpoint() {
   FluidSums sums{};
   sums.overflow = 1;
   sums.nearSolids = 2;
-  const auto words = [](const auto& record) {
-    std::vector<uint32_t> all(sizeof record / 4);
-    std::memcpy(all.data(), &record, sizeof record);
-    return all;
-  };
-  s.control = words(control);
-  s.sums = words(sums);
+  s.control = wordsOfRecord(control);
+  s.sums = wordsOfRecord(sums);
   s.solids = {1, 2, 3, 0, 0, 0, 1, 0, 0, 0.5f, 0, 0, 0};
   for (uint32_t i = 0; i < 6; ++i) {
     const auto x = static_cast<float>(i);
@@ -53,6 +55,44 @@ inline offline::Checkpoint seedCheckpoint() {
   s.listCapacity = 4;
   s.neighborCount = {1, 2, 0, 4, 9, 1};
   s.neighbors = {1, 0, 3, 0, 1, 2, 5, 3};
+  return c;
+}
+
+/// The shape that matches seedCheckpointWithBodies().
+inline SnapshotShape seedShapeWithBodies() {
+  SnapshotShape shape = seedShape();
+  shape.solidCount = 3;
+  shape.bodyCount = 2;
+  shape.contactPoints = 3;
+  return shape;
+}
+
+/// The same with two bodies, one of which touches the floor.
+inline offline::Checkpoint seedCheckpointWithBodies() {
+  offline::Checkpoint c = seedCheckpoint();
+  FluidSnapshot& s = c.fluid;
+  const std::vector<float> pose = s.solids;
+  for (uint32_t k = 1; k < 3; ++k) {
+    s.solids.insert(s.solids.end(), pose.begin(), pose.end());
+    const PoseRecord state{.centerX = 0.5f, .rotationW = 1, .velocityY = -0.25f, .angularZ = 2};
+    const BodyRecord body{.state = state,
+                          .predicted = state,
+                          .mass = 2,
+                          .inertiaXX = 1,
+                          .inertiaYY = 1,
+                          .inertiaZZ = 1,
+                          .solid = k,
+                          .locked = k,
+                          .from = 0.5f,
+                          .radius = 0.5f,
+                          .stiffness = 3};
+    const std::vector<uint32_t> words = wordsOfRecord(body);
+    s.bodies.insert(s.bodies.end(), words.begin(), words.end());
+  }
+  for (const uint32_t partner : {0u, 1u, kWallPartner}) {
+    const std::vector<uint32_t> words = wordsOfRecord(SlipRecord{partner, 1e-3f, 0, -1e-4f, 2e-3f});
+    s.slips.insert(s.slips.end(), words.begin(), words.end());
+  }
   return c;
 }
 
