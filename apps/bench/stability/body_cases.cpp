@@ -1,6 +1,7 @@
 // Rigid bodies where contacts and coupling are hard: overlaps, extreme masses and speeds, many of them.
 #include <cmath>
 
+#include "bench/mesh_shapes.hpp"
 #include "bench/stability/stress_case.hpp"
 
 namespace rill::bench {
@@ -53,6 +54,11 @@ std::vector<StressCase> bodyCases() {
   for (const double ratio : {1e-3, 1e3})
     cases.push_back(bodyCase("body-of-" + number(ratio) + "-of-water", {crate({0.5, 0.4, 0.5}, 0.3, 1000 * ratio)}, 40));
   cases.push_back(bodyCase("bodies-mass-ratio-1e6", {crate({0.5, 0.2, 0.5}, 0.3, 1), crate({0.5, 0.52, 0.5}, 0.3, 1e6)}, 40));
+  {  // of almost no volume; what has none is refused when the mesh is made
+    auto plate = Mesh::create(boxMesh({-0.2, -0.001, -0.2}, {0.2, 0.001, 0.2}));
+    const Solid solid{.shape = MeshShape{.mesh = plate ? *plate : nullptr}, .translation = {0.5, 0.6, 0.5}, .body = Body{.density = 500}};
+    cases.push_back(bodyCase("body-of-a-thin-mesh", {solid}, 40));
+  }
   cases.push_back(bodyCase("body-at-100-m-s", {crate({0.3, 0.7, 0.5}, 0.2, 500, {100, 0, 0})}, 200));
   cases.back().duration_s = 0.1;
   {
