@@ -49,6 +49,8 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      [](const ArrayShape& s) { return s.contactPoints; }},
     {PressureProbes, "pressureProbes", "pressure probes", Fluid, sizeof(PressureProbeRecord),
      [](const ArrayShape& s) { return s.pressureProbes; }},
+    {Pulls, "pulls", "pulls of bodies", Fluid, sizeof(PullRecord),
+     [](const ArrayShape& s) { return s.bodies > 0 ? uint64_t{kMaxPulls} : 0; }},
     {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},
     {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 

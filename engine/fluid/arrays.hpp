@@ -33,6 +33,7 @@ enum class FluidArray : uint8_t {
   Touched,
   ContactCandidates,
   PressureProbes,
+  Pulls,
   MeshWords,
   Keyframes,
   // Per particle.

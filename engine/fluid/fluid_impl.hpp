@@ -123,11 +123,17 @@ class FluidImpl {
   void declareUpload(Graph& graph);
   void declareDrive(Graph& graph, const FluidStep& step);
   void forgetAbandoned();  ///< what has been declared in frames that were given up
+  /// The message on an index of a solid that does not exist.
+  std::string solidOutOfRange(uint32_t solid) const;
+  // pulls.cpp
+  /// What is wrong with FluidStep::pulls; empty if nothing.
+  std::string faultOfPulls(const FluidStep& step) const;
+  void declarePulls(Graph& graph, std::span<const BodyPull> pulls);
   // passes.cpp
   FluidState described() const;  ///< without buffers
   bool validate(Graph& graph, const FluidStep& step) const;
   void importAll(Graph& graph);
-  void declareBegin(Graph& graph, double advance, bool queued = false);
+  void declareBegin(Graph& graph, double advance, bool queued = false, size_t pulls = 0);
   void declareRebuild(Graph& graph);
   /// Sorts by the cell of `places`; `keys` is the pass that finds it. The results are SortStart, SortArrived, SortOrder.
   void sortKeys(Graph& graph, FluidPass keys, Start start, FluidArray places, const SortTargets& targets, const Gate* gate);

@@ -37,6 +37,11 @@ void FluidImpl::declareUpload(Graph& graph) {
   });
 }
 
+std::string FluidImpl::solidOutOfRange(uint32_t solid) const {
+  return "solid is " + std::to_string(solid) + "; the scene has " + std::to_string(setup.solids.size()) +
+         (setup.solids.size() == 1 ? " solid" : " solids");
+}
+
 void FluidImpl::forgetAbandoned() {
   if (staging_ && uploadFrame_ && device_->abandoned(*uploadFrame_)) {
     uploaded_ = false;

@@ -24,8 +24,9 @@ void FluidImpl::importAll(Graph& graph) {
     refs_[slotOf(FluidArray::List, c)] = importWhole(graph, rowOf(FluidArray::List).label, buffer(FluidArray::List, c));
 }
 
-void FluidImpl::declareBegin(Graph& graph, double advance, bool queued) {
-  declare(graph, FluidPass::Begin, Start::Always, BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued});
+void FluidImpl::declareBegin(Graph& graph, double advance, bool queued, size_t pulls) {
+  declare(graph, FluidPass::Begin, Start::Always,
+          BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued, static_cast<uint32_t>(pulls)});
   if (!(advance > 0)) return;
   declare(graph, FluidPass::Predict, Start::Predict);
   declare(graph, FluidPass::PredictFirstAtSolids, Start::Predict);
@@ -102,8 +103,8 @@ bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
   if (step.queued && !setup.driven.empty()) return invalid("queued is set; expected false where solids are driven");
   for (size_t k = 0; k < step.targets.size(); ++k)
     if (step.targets[k].solid >= setup.solids.size())
-      return invalid("targets[" + std::to_string(k) + "].solid is " + std::to_string(step.targets[k].solid) + "; the scene has " +
-                     std::to_string(setup.solids.size()) + (setup.solids.size() == 1 ? " solid" : " solids"));
+      return invalid("targets[" + std::to_string(k) + "]." + solidOutOfRange(step.targets[k].solid));
+  if (const std::string fault = faultOfPulls(step); !fault.empty()) return invalid(fault);
   return true;
 }
 
@@ -134,7 +135,9 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   }
   uploaded_ = true;
   if (!step.resume && step.advance_s > 0 && !setup.driven.empty()) declareDrive(graph, step);
-  if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0), step.queued);
+  const std::span<const BodyPull> pulls = !step.resume && step.advance_s > 0 ? step.pulls : std::span<const BodyPull>();
+  if (!pulls.empty()) declarePulls(graph, pulls);
+  if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0), step.queued, pulls.size());
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), setup.substepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {
     declareRebuild(graph);

@@ -99,6 +99,7 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   control.substeps = control.iterations = control.builds = 0;
   control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedNoiseDampings = 0;
   control.timeDropped = 0;
+  control.pulls = 0;
   snapshot_.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);
   snapshot_.sums = records<uint32_t>(data[1], sizeof(FluidSums) / 4);
   if (fluid_.setup.loads) snapshot_.loads = records<float>(data[3], fluid_.setup.params.solidCount * kLoadNumbers);

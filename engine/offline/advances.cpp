@@ -13,14 +13,14 @@ void Advances::setFluid(Fluid& fluid, const Scene& scene) {
 
 Expected<void> Advances::submit(const Work& work) {
   while (pieces_.inFlight() < PieceQueue::kMaxInFlight) {
-    FluidStep step{.advance_s = work.advance_s, .targets = work.targets};
+    FluidStep step{.advance_s = work.advance_s, .targets = work.targets, .pulls = work.pulls};
     if (idle()) {
       if (ended_ >= work.advances) return {};
       step.substeps = pacing_.first(work.budget_s);
     } else if (const uint32_t rest = pacing_.next(work.budget_s); rest > 0) {
       step.resume = true;
       step.substeps = rest;
-    } else if (mayQueue_ && begun() < work.advances) {
+    } else if (mayQueue_ && work.pulls.empty() && begun() < work.advances) {
       step.queued = true;
       step.substeps = pacing_.first(work.budget_s);
     } else {

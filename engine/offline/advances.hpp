@@ -29,7 +29,8 @@ class Advances {
     uint64_t advances = 0;                                      ///< how many may have begun, counted as ended()
     double budget_s = std::numeric_limits<double>::infinity();  ///< time that a piece may take
     std::span<const SolidTarget> targets = {};
-    uint32_t substeps = 0;  ///< of every piece; 0: by the budget
+    std::span<const BodyPull> pulls = {};  ///< with some, an advance begins only once the last one is known to be complete
+    uint32_t substeps = 0;                 ///< of every piece; 0: by the budget
   };
   /// Submits pieces until enough are in flight or nothing else is expected to be necessary.
   Expected<void> submit(const Work& work);

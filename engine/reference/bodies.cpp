@@ -118,8 +118,28 @@ double Bodies::mobility(const RigidBody& body, const glm::dvec3& at, const glm::
          glm::dot(turn, inverseInertia(inertiaAt(body.inertia, body.predicted.rotation), body.locked) * turn);
 }
 
-void Bodies::predict(double time, double dt, const glm::dvec3& gravity, std::span<const Impulse> warm, std::vector<Pose> poses, bool atRest,
-                     Surface surface) {
+// The spring's force is that at the end of the step: j = -m h (w^2 (C + h u) + 2 z w u), u = v + K j.
+void Bodies::applyPull(const Pull& pull, const RigidBody& body, double dt, glm::dvec3& velocity, glm::dvec3& momentum) const {
+  const BodyMotion& m = body.predicted;
+  const glm::dmat3 inverse = inverseInertia(inertiaAt(body.inertia, m.rotation), body.locked);
+  const glm::dvec3 r = m.rotation * (pull.point - body.offset), offset = m.center + r - pull.target;
+  glm::dmat3 mobile(0);
+  for (int i = 0; i < 3; ++i) {
+    glm::dvec3 axis(0);
+    axis[i] = 1;
+    mobile[i] = freeAxes(body.locked) * axis / body.mass + glm::cross(inverse * glm::cross(r, axis), r);
+  }
+  const double stiffness = body.mass * pull.rate * pull.rate, damping = 2 * body.mass * pull.dampingRatio * pull.rate;
+  const double softness = dt * (damping + dt * stiffness);
+  const glm::dvec3 v = velocity + glm::cross(inverse * momentum, r);
+  glm::dvec3 j = glm::inverse(glm::dmat3(1) + softness * mobile) * -(dt * stiffness * offset + softness * v);
+  if (const double size = glm::length(j); size > dt * pull.maxForce) j *= dt * pull.maxForce / size;
+  velocity += freeAxes(body.locked) * j / body.mass;
+  momentum += glm::cross(r, j);
+}
+
+void Bodies::predict(double time, double dt, const glm::dvec3& gravity, std::span<const Impulse> warm, std::span<const Pull> pulls,
+                     std::vector<Pose> poses, bool atRest, Surface surface) {
   surface_ = std::move(surface);
   for (RigidBody& body : bodies_) {
     body.held = time < body.from;
@@ -129,7 +149,9 @@ void Bodies::predict(double time, double dt, const glm::dvec3& gravity, std::spa
     if (body.held) continue;
     const Impulse impulse = aboutMass(body, warm[body.solid]);
     m.velocity += freeAxes(body.locked) * (dt * gravity + impulse.linear / body.mass);
-    const glm::dvec3 momentum = inertiaAt(body.inertia, m.rotation) * m.angularVelocity + impulse.angular;
+    glm::dvec3 momentum = inertiaAt(body.inertia, m.rotation) * m.angularVelocity + impulse.angular;
+    for (const Pull& pull : pulls)
+      if (pull.solid == body.solid && !atRest) applyPull(pull, body, dt, m.velocity, momentum);
     glm::dvec3 w = inverseInertia(inertiaAt(body.inertia, m.rotation), body.locked) * momentum;
     w = inverseInertia(inertiaAt(body.inertia, turned(m.rotation, dt * w)), body.locked) * momentum;
     m.angularVelocity = w;

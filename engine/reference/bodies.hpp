@@ -30,6 +30,16 @@ struct Impulse {
   glm::dvec3 linear = {0, 0, 0}, angular = {0, 0, 0};
 };
 
+/// A spring that pulls a body, as rill::BodyPull.
+struct Pull {
+  size_t solid = 0;
+  glm::dvec3 point = {0, 0, 0};   ///< m, in the solid's frame
+  glm::dvec3 target = {0, 0, 0};  ///< m, relative to the origin of the positions
+  double rate = 0;                ///< rad/s, without damping
+  double dampingRatio = 1;
+  double maxForce = 0;  ///< N
+};
+
 class Bodies {
  public:
   /// The closest point of the surface of a solid with a pose.
@@ -46,9 +56,9 @@ class Bodies {
   Pose poseOf(size_t solid) const;
 
   /// Predicts a substep of `dt` that begins at `time`, both s, then solves contacts. `warm`: impulses of the warm start on all solids;
-  /// `poses`: of all solids, those of bodies are replaced. `atRest`: without their velocities, as for the initial pressure.
-  void predict(double time, double dt, const glm::dvec3& gravity, std::span<const Impulse> warm, std::vector<Pose> poses, bool atRest,
-               Surface surface);
+  /// `poses`: of all solids, those of bodies are replaced. `atRest`: without their velocities and pulls, as for the initial pressure.
+  void predict(double time, double dt, const glm::dvec3& gravity, std::span<const Impulse> warm, std::span<const Pull> pulls,
+               std::vector<Pose> poses, bool atRest, Surface surface);
   /// Moves predictions by what the solve gave solids. Called after each iteration.
   void react(std::span<const Impulse> solve, double dt);
   /// Predictions become the motions.
@@ -104,6 +114,8 @@ class Bodies {
   double mobility(const RigidBody& body, const glm::dvec3& at, const glm::dvec3& direction) const;
   double compliance(const Partner& partner, const glm::dvec3& at, const glm::dvec3& direction) const;
   Partner partnerOf(size_t solid, const glm::dvec3& at, double dt) const;
+  /// What a spring adds to a body's velocity and angular momentum in a step.
+  void applyPull(const Pull& pull, const RigidBody& body, double dt, glm::dvec3& velocity, glm::dvec3& momentum) const;
   void findTouched();
   void forEachContact(const RigidBody& body, const ContactPoint& point, double margin, double dt,
                       const std::function<void(const Contact&)>& visit) const;

@@ -373,7 +373,7 @@ void ReferenceSolver::predictPositions(double dt, bool atRest) {
     }
   }
   if (!bodies_.any()) return;
-  bodies_.predict(time_, dt, settings.gravity, warmImpulses_, solids, atRest,
+  bodies_.predict(time_, dt, settings.gravity, warmImpulses_, settings.pulls, solids, atRest,
                   [this](size_t n, const Pose& pose, const glm::dvec3& x) { return surfaceOf(n, pose, x); });
 }
 

@@ -91,6 +91,7 @@ struct ReferenceSettings {
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
   double drag = 0;                                              ///< 1/s
   double separationSpeed = 0;                                   ///< m/s, at which bodies that overlap come apart, at most
+  std::vector<Pull> pulls;                                      ///< of bodies, from the next prediction on
   double speedLimit = std::numeric_limits<double>::infinity();  ///< largest speed after a substep, m/s
   double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w >= -warmLimit dt^2
   /// The last correction may add at most clamp(half of the largest speed or five times that of a body, minSpeedGain, maxSpeedGain) + 4 g dt

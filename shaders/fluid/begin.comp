@@ -32,6 +32,7 @@ void main() {
   control.iterations = 0u;
   control.builds = 0u;
   control.solidSpeed = max(params.solidSpeed, push.drivenSpeed);
+  control.pulls = push.pulls;
   gravityAt();
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
   control.speed = uintBitsToFloat(sums.speedMax);

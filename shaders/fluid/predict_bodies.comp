@@ -1,6 +1,6 @@
 #version 460
-// Where bodies are at the end of the substep at hand, before contacts and the fluid's solve: by their velocity, gravity, and the load of
-// the fluid's warm start. Angular momentum is kept: the angular velocity is that at the end of the substep. One workgroup.
+// Where bodies are at the end of the substep at hand, before contacts and the fluid's solve: by their velocity, gravity, the load of the
+// fluid's warm start, and the host's pulls. Angular momentum is kept: the angular velocity is that at the substep's end. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/solid_loads.h"
@@ -9,9 +9,11 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 3) readonly buffer SolidLoadBlock { SolidLoadRecord solidLoads[]; };
 layout(std430, binding = 4) buffer BodyBlock { BodyRecord bodies[]; };
+layout(std430, binding = 5) readonly buffer PullBlock { PullRecord pulls[]; };
 #include "fluid/predicted_bodies.glsl"
+#include "fluid/pulls.glsl"
 
-PoseRecord predictedPose(BodyRecord b, float dt) {
+PoseRecord predictedPose(uint n, BodyRecord b, float dt) {
   PoseRecord s = b.state;
   SolidLoadRecord load = solidLoads[b.solid];
   vec3 force = vec3(load.warm[0], load.warm[1], load.warm[2]);
@@ -21,7 +23,9 @@ PoseRecord predictedPose(BodyRecord b, float dt) {
   vec3 v = before + dt * (freeAxes(b.locked) * gravity() + inverseMass(b) * force);
   vec4 q = rotationOf(s);
   vec3 momentum = inertiaAt(b, q) * turning + dt * moment;
-  vec3 w = inverseInertiaAt(b, q) * momentum;
+  mat3 inverted = inverseInertiaAt(b, q);
+  if (advances) addPulls(n, b, q, inverted, dt, v, momentum);
+  vec3 w = inverted * momentum;
   w = inverseInertiaAt(b, turned(q, dt * w)) * momentum;
   return poseOf(centerOf(s) + dt * v, turned(q, dt * w), v, w);
 }
@@ -36,7 +40,7 @@ void main() {
     if (held)
       s = poseOf(centerOf(s), rotationOf(s), vec3(0.0), vec3(0.0));
     else if (dt > 0.0)
-      s = predictedPose(b, dt);
+      s = predictedPose(n, b, dt);
     storePrediction(n, b, s);
   }
 }

@@ -50,5 +50,16 @@ struct TouchedRecord {
 // What a contact point may touch in a substep: a bit for each solid of its body's TouchedRecord, and this one for walls.
 RILL_CONST uint kMayTouchWalls = 1u << kMaxTouched;
 
+// A spring of the host that pulls a body in an advance; see rill::BodyPull.
+struct PullRecord {
+  uint body;
+  float pointX, pointY, pointZ;     // m, from the center of mass, in the solid's frame
+  float targetX, targetY, targetZ;  // m, relative to the fluid's origin
+  float rate;                       // rad/s, angular frequency without damping
+  float dampingRatio;
+  float maxForce;                   // N
+};
+RILL_CONST uint kMaxPulls = 64u;
+
 RILL_RECORDS_END
 #endif

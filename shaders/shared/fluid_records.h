@@ -178,6 +178,7 @@ struct FluidControl {
   uint phaseLeft;      // substeps of the next phase left, at most; 0 while time advances
   float solidSpeed;    // m/s, the fastest solid of the advance, but for bodies
   float bodySpeed;     // m/s, the fastest point of a body
+  uint pulls;          // springs of the host that pull bodies in the advance
   // Since the start, what prepares it too: for the host, which takes differences. The noise damping
   // pass runs in the first substeps of blocks.
   uint executedSubsteps, executedIterations, executedBuilds, executedNoiseDampings;
@@ -209,6 +210,7 @@ struct BeginPush {
   float advance;       // s
   float drivenSpeed;   // m/s, the fastest driven solid of the advance
   uint queued;         // 1: only if the last advance has no time left; else that one continues
+  uint pulls;          // as FluidControl has it
 };
 
 struct DensityPush {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -38,6 +39,13 @@ FluidSetup setupOf(const Trial& trial) {
 reference::ReferenceSettings settingsOf(const Trial& trial) {
   reference::ReferenceSettings s = reference::settingsOf(trial.scene, setupOf(trial), trial.origin);
   s.tabulated = true;
+  for (const BodyPull& pull : trial.pulls)
+    s.pulls.push_back({.solid = pull.solid,
+                       .point = reference::vec(pull.point),
+                       .target = reference::vec(pull.target) - reference::vec(trial.origin),
+                       .rate = 2 * std::numbers::pi * pull.frequency_Hz,
+                       .dampingRatio = pull.dampingRatio,
+                       .maxForce = pull.maxForce});
   if (trial.stepwise) s.substepsPerBlock = 1;
   return s;
 }
@@ -173,7 +181,7 @@ void Oracle::advance(int substeps) {
   }
 }
 
-FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* from) : test_(test), step_(trial.step) {
+FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* from) : pulls(trial.pulls), test_(test), step_(trial.step) {
   Scene scene = trial.timedScene();
   if (trial.gather == Gather::Grid) scene.solver.neighbors = NeighborChoice::Grid;
   const ParticleSet particles = trial.particles();
@@ -219,7 +227,7 @@ void FluidTest::Run::advance(double seconds, uint32_t piece) {
   bool resume = false;
   do {
     graph_.reset();
-    fluid_->addTo(graph_, {.advance_s = seconds, .resume = resume, .substeps = piece, .targets = targets});
+    fluid_->addTo(graph_, {.advance_s = seconds, .resume = resume, .substeps = piece, .targets = targets, .pulls = pulls});
     test_.runGraph(graph_);
     if (HasFatalFailure()) return;
     resume = true;

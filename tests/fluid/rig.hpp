@@ -27,9 +27,10 @@ struct Trial {
   std::vector<glm::dvec3> x, v;  ///< m and m/s, relative to the origin; `v` may be empty: at rest
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
-  uint32_t capacity = 0;  ///< 0: as many as there are particles
-  bool loads = false;     ///< loads on solids are measured
-  bool settle = false;    ///< the oracle finds the start's pressure, but parts no particles: what settles should fit its room
+  std::vector<BodyPull> pulls = {};  ///< of every advance
+  uint32_t capacity = 0;             ///< 0: as many as there are particles
+  bool loads = false;                ///< loads on solids are measured
+  bool settle = false;               ///< the oracle finds the start's pressure, but parts no particles: what settles should fit its room
   std::optional<bool> mergePasses = {};  ///< without a value: with Gather::Storage
   bool stepwise = false;                 ///< each substep is an advance of its own: the noise damping pass then runs in every one
 
@@ -104,6 +105,7 @@ class FluidTest : public GpuTest {
     Fluid& fluid() { return *fluid_; }
 
     std::vector<SolidTarget> targets;  ///< of the next advances
+    std::vector<BodyPull> pulls;       ///< likewise
 
    private:
     FluidTest& test_;

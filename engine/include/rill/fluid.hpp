@@ -13,6 +13,7 @@
 // All state is on the device, which also chooses time steps and list rebuilds; addTo() records the largest number of substeps needed.
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -96,6 +97,18 @@ struct SolidTarget {
   Double3 center = {0, 0, 0};  ///< m; not finite: the solid does not move
 };
 
+/// A damped spring between a point of a body and a point of the scene, as of a mouse or a rope. It is implicit in time: stiff springs are
+/// stable at any step. A body that is held or stopped does not move, nor does one along locked degrees of freedom.
+struct BodyPull {
+  uint32_t solid = 0;          ///< index into Scene::solids, of a solid with a body
+  Double3 point = {0, 0, 0};   ///< of the body, m, in the solid's frame
+  Double3 target = {0, 0, 0};  ///< of the scene, m
+  double frequency_Hz = 2;     ///< of the body's mass on the spring without damping, above 0 and at most 1e6
+  double dampingRatio = 1;     ///< over critical damping of that mass, 0 to 1e6
+  double maxForce = kNoBound;  ///< N, above 0
+  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
+};
+
 /// Parameters of Fluid::addTo().
 struct FluidStep {
   double advance_s = 0;    ///< simulated time to advance by, s, >= 0; ignored with `resume`
@@ -105,8 +118,11 @@ struct FluidStep {
   /// Targets of driven solids. Each moves in a straight line at constant speed, at most Solid::driven; solids without a target rest.
   /// Not kept after addTo(). Ignored with `resume`, and without particles.
   std::span<const SolidTarget> targets = {};
+  /// Springs that pull bodies during the advance, at most 64. Several on one body act one after another. Not kept after addTo(). Ignored
+  /// with `resume`, and until simulated time begins.
+  std::span<const BodyPull> pulls = {};
   /// The advance begins only if the last one has no time left when the device comes to it; else the last one continues, as with `resume`.
-  /// So the next advance can be recorded before the last is known to be complete. Not where solids are driven: BadInput.
+  /// So the next advance can be recorded before the last is known to be complete. Not where solids are driven, nor with `pulls`: BadInput.
   bool queued = false;
 };
 
@@ -184,8 +200,8 @@ class RILL_API Fluid {
   Fluid(Fluid&&) noexcept;
   Fluid& operator=(Fluid&&) noexcept;
 
-  /// Adds the passes of one step; the fluid advances when the graph is recorded and executed. A negative or non-finite time and an
-  /// invalid solid index are reported by the graph's compile(); no pass is added then.
+  /// Adds the passes of one step; the fluid advances when the graph is recorded and executed. A negative or non-finite time, an
+  /// invalid solid index and an invalid pull are reported by the graph's compile(); no pass is added then.
   FluidState addTo(Graph& graph, const FluidStep& step);
   /// The current particles, also between the pieces of an advance. Adds no pass. Requires an earlier graph with addTo().
   FluidState present(Graph& graph) const;
