@@ -18,6 +18,24 @@ Ray Controls::ray(const Area& area) const {
   return rayThrough(camera.view(), right, down);
 }
 
+Expected<void> Controls::throwCrate(Session& session, const Area& area) {
+  if (drag_ == Drag::Touch) drag_ = Drag::None;
+  if (auto released = touch_.release(session); !released) return released;
+  return Touch::throwCrate(session, ray(area));
+}
+
+std::optional<std::array<Place, 2>> Controls::pullLine(const Session& session, const Area& area) const {
+  const auto line = touch_.pullLine(session);
+  if (!line) return std::nullopt;
+  std::array<Place, 2> places;
+  for (size_t k = 0; k < 2; ++k) {
+    const auto at = imagePlace(camera.view(), (*line)[k]);
+    if (!at) return std::nullopt;
+    places[k] = {area.x + 0.5 * area.width + (*at)[0] * area.height, area.y + 0.5 * area.height + (*at)[1] * area.height};
+  }
+  return places;
+}
+
 void Controls::reset() {
   touch_.reset();
   if (drag_ == Drag::Touch) drag_ = Drag::None;

@@ -20,17 +20,18 @@ class Controls {
   void reset();
   /// Throws fluid at what is under the pointer.
   Expected<uint64_t> throwFluid(Session& session, const Area& area) const { return Touch::throwFluid(session, ray(area)); }
+  /// Throws a crate likewise. What is grabbed is released.
+  Expected<void> throwCrate(Session& session, const Area& area);
+  /// In pixels of the window, where a body is pulled: from the point that it was grabbed by to where it is pulled to.
+  std::optional<std::array<Place, 2>> pullLine(const Session& session, const Area& area) const;
 
  private:
   enum class Drag { None, Orbit, Pan, Dolly, Touch };
-  struct Position {
-    double x = 0, y = 0;  // pixels
-  };
   Expected<void> press(const InputEvent& event, const Area& area, Session& session, bool paused);
   Ray ray(const Area& area) const;  // through the pointer
 
   Touch touch_;
-  Position pointer_, grabbed_;  // now; when the button was pressed
+  Place pointer_, grabbed_;  // now; when the button was pressed
   Drag drag_ = Drag::None;
 };
 

@@ -51,6 +51,8 @@ Expected<void> InputHandler::perform(Action action, bool shift) {
     }
     case Action::Throw:
       return shown_.throwFluid();
+    case Action::ThrowCrate:
+      return shown_.throwCrate();
     case Action::Home:
       shown_.camera().home();
       break;

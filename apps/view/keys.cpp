@@ -16,6 +16,7 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause or c
                                     {GLFW_KEY_RIGHT_BRACKET, "]", Action::NextScene, "next scene"},
                                     {GLFW_KEY_V, "V", Action::NextView, "next view; with Shift the one before"},
                                     {GLFW_KEY_SPACE, "Space", Action::Throw, "throw a ball of fluid at what is under the pointer"},
+                                    {GLFW_KEY_B, "B", Action::ThrowCrate, "throw a crate at it"},
                                     {GLFW_KEY_HOME, "Home", Action::Home, "frame the scene"},
                                     {GLFW_KEY_1, "1", Action::Front, "look from the front"},
                                     {GLFW_KEY_2, "2", Action::Back, "from behind"},
@@ -32,11 +33,12 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause or c
                                     {GLFW_KEY_C, "C", Action::Screenshot, "write the window to a PNG file"},
                                     {GLFW_KEY_F1, "F1", Action::Help, "this help"}};
 
-constexpr MouseUse kMouse[] = {{"left drag", "on the fluid: push it; elsewhere, while paused, or with Alt: orbit the camera"},
-                               {"right drag", "on a solid: move it; elsewhere: move the camera nearer or farther"},
-                               {"wheel", "move the camera nearer or farther, towards the pointer"},
-                               {"middle drag", "pan the camera (also Shift and left drag)"},
-                               {"drop a file", "open a scene"}};
+constexpr MouseUse kMouse[] = {
+    {"left drag", "on the fluid: push it; elsewhere, while paused, or with Alt: orbit the camera"},
+    {"right drag", "on a body: pull it; on other solids: move them; elsewhere: move the camera nearer or farther"},
+    {"wheel", "move the camera nearer or farther, towards the pointer"},
+    {"middle drag", "pan the camera (also Shift and left drag)"},
+    {"drop a file", "open a scene"}};
 
 struct NamedKey {
   std::string_view name;

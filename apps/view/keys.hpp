@@ -15,6 +15,7 @@ enum class Action {
   NextScene,
   NextView,
   Throw,
+  ThrowCrate,
   Home,
   Front,
   Back,

@@ -11,6 +11,11 @@ struct Area {
   friend bool operator==(const Area&, const Area&) = default;
 };
 
+/// A place in the window, in pixels from the top left.
+struct Place {
+  double x = 0, y = 0;
+};
+
 /// The layout of the window: a column of panels at each side, a status line at the bottom, and the image between them.
 /// Nothing overlaps.
 struct Layout {

@@ -26,6 +26,14 @@ Ray rayThrough(const CameraView& eye, double right, double down) {
   return ray;
 }
 
+std::optional<std::array<double, 2>> imagePlace(const CameraView& eye, const Double3& point) {
+  const CameraBasis basis = cameraBasis(eye);
+  const Vector offset{point[0] - eye.eye[0], point[1] - eye.eye[1], point[2] - eye.eye[2]};
+  const double depth = dot(offset, basis.forward), spread = 2 * std::tan(eye.fov_y_deg * std::numbers::pi / 360) * depth;
+  if (!(spread > 0)) return std::nullopt;
+  return std::array{dot(offset, basis.right) / spread, -dot(offset, basis.up) / spread};
+}
+
 std::optional<Picked> pick(const Ray& ray, std::span<const Float3> positions, const Double3& origin, double radius,
                            std::span<const Solid> solids, std::span<const Pose> poses) {
   std::optional<Picked> first;

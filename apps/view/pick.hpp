@@ -21,6 +21,9 @@ struct Ray {
 /// The ray through a point of the image, `right` and `down` of its center in image heights.
 Ray rayThrough(const CameraView& eye, double right, double down);
 
+/// Of a point of the scene (m) in the image, right and down of its center in image heights; nullopt behind the eye.
+std::optional<std::array<double, 2>> imagePlace(const CameraView& eye, const Double3& point);
+
 struct Picked {
   double distance = 0;            ///< m along the ray
   std::optional<uint32_t> solid;  ///< none: the fluid

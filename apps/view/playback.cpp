@@ -1,5 +1,6 @@
 #include "view/playback.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -52,12 +53,22 @@ Expected<bool> Playback::counted(Runner& runner, Work&& work) {
   return true;
 }
 
+void Playback::addBody(const Runner& runner, uint32_t solid) {
+  const auto bodies = runner.fluid().bodies();
+  const auto body = std::ranges::find(bodies, solid, &BodyMotion::solid);
+  if (body == bodies.end()) return;
+  if (histories_.body.solid != solid) histories_.body = {.solid = solid};
+  histories_.body.load_N.add(runner.fluid().solidLoads()[solid].force.y);
+  histories_.body.height_m.add(body->center.y);
+}
+
 Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
   const StepFigures& step = runner.last();
   histories_.particles.add(runner.fluid().count());
   histories_.substeps.add(step.substeps);
   histories_.iterations.add(step.iterations);
   histories_.wall_ms.add(1e3 * step.seconds);
+  addBody(runner, frame.body);
   if (!runner.betweenSteps() || !measuresIn(frame)) return true;
   measured_s_ = frame.now_s;
   auto stats = runner.measure();

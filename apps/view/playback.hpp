@@ -13,20 +13,28 @@ namespace rill::view {
 /// The last values of a figure, one per step.
 class History {
  public:
-  static constexpr size_t kMaxEntries = 240;  ///< four seconds of simulated time
+  explicit History(size_t maxEntries = 240) : maxEntries_(maxEntries) {}  ///< by default four seconds of simulated time
   void add(double value) {
-    if (values_.size() == kMaxEntries) values_.erase(values_.begin());
+    if (values_.size() == maxEntries_) values_.erase(values_.begin());
     values_.push_back(static_cast<float>(value));
   }
   void clear() { values_.clear(); }
   const std::vector<float>& values() const { return values_; }
 
  private:
+  size_t maxEntries_;
   std::vector<float> values_;
+};
+
+/// Of the body that the panel shows, over ten seconds of simulated time.
+struct BodyHistory {
+  uint32_t solid = 0;                                      ///< its index
+  History load_N = History(600), height_m = History(600);  ///< vertical load of the fluid; of its center of mass
 };
 
 struct Histories {
   History particles, substeps, iterations, wall_ms, error;
+  BodyHistory body;
   std::map<std::string, History, std::less<>> passes;
   uint64_t passesOf = UINT64_MAX;  ///< the last step whose times were added
 };
@@ -41,6 +49,7 @@ class Playback {
     bool paused = false;
     bool lockstep = false;                 ///< one step per frame except the first, however long it takes
     std::optional<double> measureEvery_s;  ///< interval between measurements of the fluid, if any
+    uint32_t body = 0;                     ///< index of the solid whose history is kept, if it is a body
     bool queues = true;                    ///< the next step may be submitted before the last is known to be complete
   };
   /// Simulates for a frame. True where a step was completed.
@@ -56,6 +65,7 @@ class Playback {
  private:
   bool measuresIn(const Frame& frame) const { return frame.measureEvery_s && frame.now_s - measured_s_ >= *frame.measureEvery_s; }
   Expected<bool> finished(Runner& runner, const Frame& frame);
+  void addBody(const Runner& runner, uint32_t solid);
   /// Does `work`, which ends at most one step, and tells the clock. True where a step was completed.
   template <class Work>
   Expected<bool> counted(Runner& runner, Work&& work);

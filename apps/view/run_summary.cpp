@@ -19,10 +19,12 @@ Expected<void> RunSummary::print(const std::string& scene, uint64_t frames, doub
   };
   char text[600];  // a file name has up to 255
   std::snprintf(text, sizeof text,
-                "scene         %s\nframes        %llu\nsteps         %llu\ntime_s        %.9g\nwall_s        %.3f\n"
+                "scene         %s\nframes        %llu\nsteps         %llu\ntime_s        %.9g\n"
+                "particles     %u\nbodies        %zu\nwall_s        %.3f\n"
                 "frame_ms      %.1f\nframe_ms_p95  %.1f\nstate_hash    %016llx\n",
                 scene.c_str(), static_cast<unsigned long long>(frames), static_cast<unsigned long long>(runner.steps()), runner.time_s(),
-                wall_s, frame_ms(0.5), frame_ms(0.95), static_cast<unsigned long long>(*hash));
+                runner.fluid().count(), runner.fluid().bodies().size(), wall_s, frame_ms(0.5), frame_ms(0.95),
+                static_cast<unsigned long long>(*hash));
   return apps::writeStream(STDOUT_FILENO, apps::printable(text));
 }
 

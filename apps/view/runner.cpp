@@ -4,13 +4,28 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/vector_math.hpp"
 #include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
-#include "shape/records.hpp"
+#include "shape/mass.hpp"
 #include "view/clock.hpp"
 
 namespace rill::view {
+namespace {
+
+/// Whether the fluid had a buffer on the device: particles or bodies.
+bool hasState(const FluidSnapshot& snapshot) { return !snapshot.control.empty(); }
+
+Pose bodyPose(const Solid& solid, const BodyMotion& motion) {
+  Pose pose{.center = motion.center, .rotation = motion.rotation, .velocity = motion.velocity, .angularVelocity = motion.angularVelocity};
+  const Double3 toCenter = toScene(pose, along({}, -1, massOf(solid.shape, 1).center));
+  pose.center = along(pose.center, 1, toCenter);
+  pose.velocity = along(pose.velocity, 1, cross(motion.angularVelocity, toCenter));
+  return pose;
+}
+
+}  // namespace
 
 Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scene scene) {
   std::unique_ptr<Runner> runner(new Runner(context, std::move(scene)));
@@ -58,8 +73,11 @@ Expected<void> Runner::begin() {
 Expected<void> Runner::advancePiece(double budget_s, bool more) {
   if (advances_.inFlight() == 0)
     if (auto idle = context_.wait(); !idle) return idle;  // rendering is not part of the measured time
-  const offline::Advances::Work work{
-      .advance_s = Clock::kStep, .advances = advances_.ended() + (more ? 2 : 1), .budget_s = budget_s, .targets = targets_};
+  const offline::Advances::Work work{.advance_s = Clock::kStep,
+                                     .advances = advances_.ended() + (more ? 2 : 1),
+                                     .budget_s = budget_s,
+                                     .targets = targets_,
+                                     .pulls = pulls_};
   if (auto submitted = advances_.submit(work); !submitted) return submitted;
   return finishPiece();
 }
@@ -127,7 +145,7 @@ Expected<FluidSnapshot> Runner::snapshot() {
 }
 
 Expected<void> Runner::continueFrom(Scene scene, std::shared_ptr<const ParticleSet> start, FluidSnapshot from) {
-  auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = start.get(), .snapshot = count() > 0 ? &from : nullptr});
+  auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = start.get(), .snapshot = hasState(from) ? &from : nullptr});
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
   scene_ = std::move(scene);
@@ -139,7 +157,7 @@ Expected<void> Runner::continueFrom(Scene scene, std::shared_ptr<const ParticleS
 
 void Runner::keep(FluidSnapshot now) {
   kept_ = {scene_, start_, firstBounds_, {}, steps_};
-  if (count() > 0) kept_.snapshot = std::move(now);
+  if (hasState(now)) kept_.snapshot = std::move(now);
 }
 
 Expected<void> Runner::keep(uint32_t particles) {
@@ -154,27 +172,29 @@ Expected<void> Runner::change(Scene scene) {
   auto now = snapshot();
   if (!now) return now.error();
   if (!(scene.fluid.spacing > 0)) scene.fluid.spacing = scene_.fluid.spacing;  // derived from the fills, which are unchanged
-  scene.solids = scene_.solids;
+  std::vector<Solid> solids = scene_.solids;
+  for (size_t k = 0; k < std::min(solids.size(), scene.solids.size()); ++k) {
+    if (!solids[k].body || !scene.solids[k].body) continue;
+    solids[k].body->density = scene.solids[k].body->density;
+    solids[k].body->mass = scene.solids[k].body->mass;
+  }
+  scene.solids = std::move(solids);
   // The snapshot contains the current gravity.
-  if (scene.gravity_changes.empty() && count() > 0) setGravity(*now, scene.gravity);
+  if (scene.gravity_changes.empty() && hasState(*now)) setGravity(*now, scene.gravity);
   return continueFrom(std::move(scene), start_, std::move(*now));
 }
 
 Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   auto now = snapshot();
   if (!now) return now.error();
-  if (count() > 0) forgetNeighbors(*now);
-  now->solids.clear();
-  for (size_t k = 0; k < solids.size(); ++k) {
-    const Pose current = k < scene_.solids.size() ? pose(static_cast<uint32_t>(k)) : solidPose(solids[k], 0);
-    appendPose(recordOf(current, start_->origin), now->solids);
-  }
-  const bool anyMoves = std::ranges::any_of(solids, [](const Solid& solid) { return solid.driven > 0 || !solid.motion.empty(); });
-  if (!anyMoves) now->solids.clear();
+  std::vector<Pose> poses;
+  for (uint32_t k = 0; k < solids.size(); ++k) poses.push_back(k < scene_.solids.size() ? pose(k) : solidPose(solids[k], 0));
+  if (hasState(*now)) replaceSolids(*now, scene_.solids, solids, poses, start_->origin);
   Scene scene = scene_;
   scene.solids = std::move(solids);
   if (auto done = continueFrom(std::move(scene), start_, std::move(*now)); !done) return done;
   targets_.clear();
+  pulls_.clear();
   return {};
 }
 
@@ -189,6 +209,8 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
     only.solids[k].motion = {
         {0, {current.center[0] - first.center[0], current.center[1] - first.center[1], current.center[2] - first.center[2]}}};
     only.solids[k].rotation = current.rotation;
+    only.solids[k].driven = 0;
+    only.solids[k].body.reset();
   }
   const auto more = makeParticles(only);
   if (!more) return more.error();
@@ -207,12 +229,14 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
   const std::vector<Float3> velocities(positions.size(), more->velocities.front());
   start.positions.insert(start.positions.end(), positions.begin(), positions.end());
   start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());
-  if (count() > 0) append(*now, positions, velocities);
+  if (hasState(*now)) append(*now, positions, velocities);
   if (auto done = continueFrom(scene_, std::make_shared<const ParticleSet>(std::move(start)), std::move(*now)); !done) return done.error();
   return positions.size();
 }
 
 Pose Runner::pose(uint32_t solid) const {
+  for (const BodyMotion& motion : fluid_->bodies())
+    if (motion.solid == solid) return bodyPose(scene_.solids[solid], motion);
   Pose current = solidPose(scene_.solids[solid], time_s());
   if (scene_.solids[solid].driven > 0) current.center = fluid_->drivenCenter(solid);
   return current;

@@ -64,9 +64,10 @@ class Runner {
   // These continue from the current state with a change; the current step is completed first. Errors as create(); then
   // nothing is changed.
 
-  /// Applies the settings of a scene that differs only in keys for which Session::isLive() is true. Solids stay as they are.
+  /// Applies the settings of a scene that differs only in keys for which Session::isLive() is true. Solids stay as they are, but for the
+  /// mass of bodies.
   Expected<void> change(Scene scene);
-  /// Replaces the solids. Existing ones come first, in the same order, and keep their pose().
+  /// Replaces the solids. Existing ones come first, in the same order, and keep their pose(), bodies also their velocity and load.
   Expected<void> changeSolids(std::vector<Solid> solids);
   /// Adds the particles of a fill where there is room, and returns their number. BadInput where less than a quarter fit.
   Expected<uint64_t> add(const Fill& fill);
@@ -81,6 +82,9 @@ class Runner {
   /// Sets the target of a driven solid for the next step and those that follow.
   void setTarget(const SolidTarget& target);
   void clearTargets() { targets_.clear(); }  ///< driven solids then stay where they are
+  /// Pulls a body in the next step and those that follow, in place of a pull before.
+  void setPull(const BodyPull& pull) { pulls_ = {pull}; }
+  void clearPulls() { pulls_.clear(); }
   /// Current positions, m relative to start().origin, in the order of the device.
   Expected<std::vector<Float3>> positions();
 
@@ -122,6 +126,7 @@ class Runner {
   Bounds firstBounds_;
   std::optional<Fluid> fluid_;
   std::vector<SolidTarget> targets_;
+  std::vector<BodyPull> pulls_;
   Graph graph_, measureGraph_;
   offline::Advances advances_;
   uint64_t steps_ = 0;

@@ -1,13 +1,34 @@
 #include "view/session.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "core/words.hpp"
 #include "scene/json_text.hpp"
 #include "scene/overrides.hpp"
+#include "shape/mass.hpp"
 
 namespace rill::view {
+namespace {
+
+constexpr std::string_view kDensityKey = ".body.density", kMassKey = ".body.mass";
+
+/// The index in "solids[N].body.density" or "solids[N].body.mass".
+std::optional<size_t> bodyOfMass(std::string_view key) {
+  constexpr std::string_view kSolids = "solids[";
+  if (!key.starts_with(kSolids)) return std::nullopt;
+  key.remove_prefix(kSolids.size());
+  size_t solid = 0;
+  const auto read = std::from_chars(key.data(), key.data() + key.size(), solid);
+  if (read.ec != std::errc()) return std::nullopt;
+  const std::string_view rest(read.ptr, static_cast<size_t>(key.data() + key.size() - read.ptr));
+  if (!rest.starts_with(']')) return std::nullopt;
+  return rest.substr(1) == kDensityKey || rest.substr(1) == kMassKey ? std::optional(solid) : std::nullopt;
+}
+
+}  // namespace
 
 Expected<std::unique_ptr<Session>> Session::open(offline::Context& context, const std::filesystem::path& file,
                                                  std::vector<Override> changes) {
@@ -34,10 +55,12 @@ Expected<void> Session::read(std::vector<Override> changes) {
 Expected<void> Session::begin(std::string_view text, std::vector<Override> changes) {
   auto scene = parse(text, changes);
   if (!scene) return scene.error();
+  const size_t solids = scene->solids.size();
   auto runner = Runner::create(context_, std::move(*scene));
   if (!runner) return runner.error();
   if (auto started = (*runner)->begin(); !started) return started;
   changes_ = std::move(changes);
+  fileSolids_ = solids;
   painter_.reset();
   runner_ = std::move(*runner);
   resetPainter();
@@ -81,6 +104,7 @@ bool Session::isLive(std::string_view key) const {
   constexpr std::string_view kNeedsRestart[] = {"fluid.spacing",         "fluid.particles", "fluid.density",
                                                 "fluid.smoothing_ratio", "solver.kernel",   "solver.neighbors"};
   if (std::ranges::find(kNeedsRestart, key) != std::end(kNeedsRestart)) return false;
+  if (const auto solid = bodyOfMass(key)) return *solid < fileSolids_ && scene().solids[*solid].body.has_value();
   if (key == "gravity") return scene().gravity_changes.empty();
   return key.starts_with("fluid.") || key.starts_with("solver.") || key.starts_with("look.");
 }
@@ -100,6 +124,16 @@ Expected<void> Session::change(const Override& change) {
   std::erase_if(changes, [&](const Override& other) { return other.key == change.key; });
   changes.push_back(change);
   return apply(std::move(changes), isLive(change.key));
+}
+
+Expected<void> Session::changeDensity(uint32_t solid, double density) {
+  const Solid& old = scene().solids[solid];
+  const bool mass = old.body->mass > 0;
+  const double value = mass ? density * massOf(old.shape, 1).mass : density;
+  if (solid < fileSolids_) return change({elementPath("solids", solid) + (mass ? kMassKey : kDensityKey).data(), shortestNumber(value)});
+  std::vector<Solid> solids = scene().solids;
+  solids[solid].body->density = value;
+  return changeSolids(std::move(solids));
 }
 
 Expected<void> Session::reset(std::string_view key) {

@@ -29,6 +29,9 @@ class Session {
   /// The scene with its changes, as JSON without comments. Paths in it are relative to `folder`.
   Expected<std::string> text(const std::filesystem::path& folder) const;
 
+  /// Changes the density of a body (kg/m^3) while the simulation continues: its key, or of one that was added its solid.
+  Expected<void> changeDensity(uint32_t solid, double density);
+
   /// As in Runner. These changes are not part of the scene file: restart() drops them and text() omits them.
   Expected<void> changeSolids(std::vector<Solid> solids);
   Expected<uint64_t> add(const Fill& fill);
@@ -66,6 +69,7 @@ class Session {
   FileWatch watch_;
   std::string text_;  ///< of the file, as it was read
   std::vector<Override> changes_;
+  size_t fileSolids_ = 0;  ///< solids of the file; those behind them were added
   std::unique_ptr<Runner> runner_;
   KeptState released_;                         ///< from release() to resume()
   std::unique_ptr<offline::Painter> painter_;  // refers to the runner's scene

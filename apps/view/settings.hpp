@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 
 namespace rill::view {
@@ -7,7 +8,8 @@ namespace rill::view {
 struct Settings {
   std::string view = "final";
   bool paused = false, panels = true, help = false;
-  double scale = 0;  ///< resolution of the image; 0: automatic
+  uint32_t body = 0;  ///< index of the solid whose figures the panel of bodies shows
+  double scale = 0;   ///< resolution of the image; 0: automatic
 };
 
 }  // namespace rill::view

@@ -99,6 +99,17 @@ Expected<void> ShownScene::throwFluid() {
   return {};
 }
 
+Expected<void> ShownScene::throwCrate() {
+  const auto thrown = controls_.throwCrate(*session_, layout_.picture);
+  dirty_ = true;
+  return message_.report(thrown);
+}
+
+Expected<void> ShownScene::changeDensity(uint32_t solid, double density) {
+  dirty_ = true;
+  return message_.report(session_->changeDensity(solid, density));
+}
+
 void ShownScene::pauseAfterOneStep() {
   settings_.paused = true;
   playback_.oneStep();
@@ -124,6 +135,7 @@ Expected<void> ShownScene::simulate(double seconds, double now_s) {
   frame.budget_s = std::clamp(picture_.seconds(), kMinPiece, kMaxPiece);
   frame.paused = settings_.paused;
   frame.lockstep = lockstep_;
+  frame.body = settings_.body;
   frame.queues = !snapshots_.due(now_s);
   if (settings_.view == "density")
     frame.measureEvery_s = 0;

@@ -35,6 +35,9 @@ class ShownScene {
   Expected<void> tilt(Tilt direction);
   /// Throws fluid at what is under the pointer.
   Expected<void> throwFluid();
+  Expected<void> throwCrate();  ///< likewise
+  /// Changes the density of a body, kg/m^3.
+  Expected<void> changeDensity(uint32_t solid, double density);
   void pauseAfterOneStep();
 
   /// Handles an event of the pointer, a button or the wheel. `overPanels`: the pointer is over a panel.
@@ -55,6 +58,8 @@ class ShownScene {
   Session& session() { return *session_; }
   OrbitCamera& camera() { return controls_.camera; }
   const Layout& layout() const { return layout_; }
+  /// As Controls::pullLine().
+  std::optional<std::array<Place, 2>> pullLine() const { return controls_.pullLine(*session_, layout_.picture); }
   const Picture& picture() const { return picture_; }
   Playback& playback() { return playback_; }
   HeldEdit& heldEdit() { return held_; }

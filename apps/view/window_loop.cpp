@@ -112,6 +112,7 @@ Expected<void> WindowLoop::draw(const std::optional<fs::path>& screenshot) {
   board.lockstep = options_.lockstep;
   board.devices = graphics_.devices();
   board.memory = graphics_.memory(now_s_);
+  board.pullLine = shown_.pullLine();
   drawPanels(board);
   if (auto shown = show(interface_.end(), screenshot); !shown) return shown;
   return carryOut(board.requests, graphics_, shown_, scenes_, devices_, message_);

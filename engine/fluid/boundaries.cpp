@@ -81,6 +81,27 @@ bool fits(const MassProperties& m) {
   return within(m.mass) && within(size) && xx > 0 && minor > 0 && determinant > 1e-12 * size * size * size;
 }
 
+Expected<void> addBody(const Solid& solid, const BodyShape& shape, const Double3& origin, FluidSetup& setup) {
+  const auto index = static_cast<uint32_t>(setup.solids.size());
+  const MassProperties m = massOf(solid, shape.unit);
+  if (!fits(m)) {
+    const bool crossed = !(m.inertia[0] > 0 && m.inertia[1] > 0 && m.inertia[2] > 0);
+    return Error{ErrorKind::BadInput, elementPath("solids", index) + ".body: a mass of " + roundedNumber(m.mass) +
+                                          " kg and moments of inertia of " + roundedNumber(m.inertia[0]) + ", " +
+                                          roundedNumber(m.inertia[1]) + " and " + roundedNumber(m.inertia[2]) + " kg m^2 " +
+                                          (crossed ? "are not those of a solid; expected a mesh that does not cross itself"
+                                                   : "do not fit 32-bit floats; expected 1e-30 to 1e30, and no moment 1e-6 of another")};
+  }
+  setup.movingSolids = true;
+  setup.bodies.push_back(bodyRecord(solid, m, index, origin));
+  for (const ContactPoint& point : shape.points)
+    setup.contactPoints.push_back(
+        {f(point.center.x), f(point.center.y), f(point.center.z), f(point.radius), static_cast<uint32_t>(setup.bodies.size() - 1)});
+  return {};
+}
+
+}  // namespace
+
 BodyRecord bodyRecord(const Solid& solid, const MassProperties& m, uint32_t index, const Double3& origin) {
   const Pose pose = solidPose(solid, 0.0);
   const Double3 center = along(pose.center, 1, toScene(pose, m.center));
@@ -108,27 +129,6 @@ BodyRecord bodyRecord(const Solid& solid, const MassProperties& m, uint32_t inde
           .held = body.from > 0,
           .radius = f(radiusAbout(solid.shape, m.center))};
 }
-
-Expected<void> addBody(const Solid& solid, const BodyShape& shape, const Double3& origin, FluidSetup& setup) {
-  const auto index = static_cast<uint32_t>(setup.solids.size());
-  const MassProperties m = massOf(solid, shape.unit);
-  if (!fits(m)) {
-    const bool crossed = !(m.inertia[0] > 0 && m.inertia[1] > 0 && m.inertia[2] > 0);
-    return Error{ErrorKind::BadInput, elementPath("solids", index) + ".body: a mass of " + roundedNumber(m.mass) +
-                                          " kg and moments of inertia of " + roundedNumber(m.inertia[0]) + ", " +
-                                          roundedNumber(m.inertia[1]) + " and " + roundedNumber(m.inertia[2]) + " kg m^2 " +
-                                          (crossed ? "are not those of a solid; expected a mesh that does not cross itself"
-                                                   : "do not fit 32-bit floats; expected 1e-30 to 1e30, and no moment 1e-6 of another")};
-  }
-  setup.movingSolids = true;
-  setup.bodies.push_back(bodyRecord(solid, m, index, origin));
-  for (const ContactPoint& point : shape.points)
-    setup.contactPoints.push_back(
-        {f(point.center.x), f(point.center.y), f(point.center.z), f(point.radius), static_cast<uint32_t>(setup.bodies.size() - 1)});
-  return {};
-}
-
-}  // namespace
 
 double fastestBody(const Scene& scene) {
   double fastest = 0;

@@ -1,6 +1,7 @@
 #pragma once
 // From a scene's walls and solids to what the shaders read of them. Lengths relative to the particles' origin.
 #include "fluid/settings.hpp"
+#include "shape/mass.hpp"
 #include "sph/kernel.hpp"
 
 namespace rill {
@@ -11,6 +12,9 @@ double fastestSolid(const Scene& scene);
 double fastestBody(const Scene& scene);
 /// m/s, of all solids that the host moves.
 double fastestDriven(const Scene& scene);
+
+/// The record of a solid's body at its start, among the scene's solids at `index`.
+BodyRecord bodyRecord(const Solid& solid, const MassProperties& m, uint32_t index, const Double3& origin);
 
 /// A power of two that is no shorter than the distance from a solid's center to a particle whose density it displaces, m.
 double loadLever(const Scene& scene, double support);

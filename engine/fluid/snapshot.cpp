@@ -9,9 +9,12 @@
 #include <functional>
 #include <string>
 
+#include "core/vector_math.hpp"
 #include "core/words.hpp"
 #include "fluid/arrays.hpp"
+#include "fluid/boundaries.hpp"
 #include "fluid/neighbor_list.hpp"
+#include "shape/contact_points.hpp"
 #include "shape/records.hpp"
 
 namespace rill {
@@ -222,6 +225,43 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
   auto control = record<FluidControl>(s.control);
   control.count = static_cast<uint32_t>(s.id.size());
   s.control = wordsOf(control);
+}
+
+void replaceSolids(FluidSnapshot& s, std::span<const Solid> before, std::span<const Solid> after, std::span<const Pose> poses,
+                   const Double3& origin) {
+  forgetNeighbors(s);
+  const FluidSnapshot old = {.solids = s.solids, .bodies = s.bodies, .slips = s.slips};
+  s.solids.clear();
+  s.bodies.clear();
+  s.slips.clear();
+  bool moves = false;
+  float fastest = 0;
+  size_t body = 0, slip = 0;  // of the old ones: words before those of the solid
+  for (size_t k = 0; k < after.size(); ++k) {
+    const Solid& solid = after[k];
+    moves |= solid.driven > 0 || !solid.motion.empty() || solid.body;
+    const bool goesOn = k < before.size() && before[k].body && solid.body;
+    appendPose(goesOn ? poseAt(old.solids, k) : recordOf(poses[k], origin), s.solids);
+    if (!solid.body) continue;
+    const size_t slips = kSlipWords * contactPoints(solid.shape).size();
+    if (goesOn) {
+      s.bodies.insert(s.bodies.end(), &old.bodies[body], &old.bodies[body] + kBodyWords);
+      s.slips.insert(s.slips.end(), &old.slips[slip], &old.slips[slip] + slips);
+      body += kBodyWords;
+      slip += slips;
+      continue;
+    }
+    const BodyRecord fresh = bodyRecord(solid, massOf(solid), static_cast<uint32_t>(k), origin);
+    const std::vector<uint32_t> words = wordsOf(fresh);
+    s.bodies.insert(s.bodies.end(), words.begin(), words.end());
+    s.slips.resize(s.slips.size() + slips);
+    fastest = std::max(fastest, static_cast<float>(length(solid.body->velocity) + fresh.radius * length(solid.body->angular_velocity)));
+  }
+  if (!moves) s.solids.clear();
+  if (!s.loads.empty()) s.loads.resize(kLoadNumbers * after.size());
+  auto sums = record<FluidSums>(s.sums);
+  sums.bodySpeed = std::max(sums.bodySpeed, std::bit_cast<uint32_t>(fastest));
+  s.sums = wordsOf(sums);
 }
 
 void setGravity(FluidSnapshot& s, const Double3& gravity) {

@@ -5,6 +5,7 @@
 #include "fluid/settings.hpp"
 #include "rill/fluid.hpp"
 #include "rill/snapshot.hpp"
+#include "shape/pose.hpp"
 
 namespace rill {
 
@@ -32,6 +33,10 @@ bool hasNeighbors(const FluidSnapshot& snapshot);
 void forgetNeighbors(FluidSnapshot& snapshot);
 /// Particles that were not there before, with the next ids. Neighbors are forgotten.
 void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::span<const Float3> velocities);
+/// The solids `after` in place of `before`, of which those that both have are the same and keep their motion: solids are added or left
+/// out at the end. `poses`: of those after, in the scene; bodies that go on keep theirs. Neighbors are forgotten.
+void replaceSolids(FluidSnapshot& snapshot, std::span<const Solid> before, std::span<const Solid> after, std::span<const Pose> poses,
+                   const Double3& origin);
 /// Gravity from the present instant on, m/s^2, where no schedule changes it.
 void setGravity(FluidSnapshot& snapshot, const Double3& gravity);
 

@@ -130,7 +130,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     bodies[k].predicted = saved.predicted;
     bodies[k].held = saved.held;
     bodies[k].stopped = saved.stopped;
-    bodies[k].stiffness = saved.stiffness;
+    bodies[k].stiffness = saved.stiffness * std::sqrt(saved.mass / bodies[k].mass);  // the host may have changed its mass
   }
   takeBodies(std::as_bytes(std::span(bodies)));
   staging_->add(slotOf(FluidArray::Bodies), bodies.size() * sizeof(BodyRecord), bytesOf(bodies));

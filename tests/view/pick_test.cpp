@@ -31,6 +31,15 @@ TEST(ViewPick, RayPassesThroughImagePoint) {
   EXPECT_NEAR(corner.at(2)[2], 5 - 2 / std::sqrt(3.0), 1e-12);
 }
 
+TEST(ViewPick, PlacesPointsWhereTheirRaysPass) {
+  const CameraView eye = {.eye = {3, 2, 5}, .target = {0, 0.5, 0}, .fov_y_deg = 38};
+  const auto place = imagePlace(eye, rayThrough(eye, 0.3, -0.2).at(4));
+  ASSERT_TRUE(place);
+  EXPECT_NEAR((*place)[0], 0.3, 1e-12);
+  EXPECT_NEAR((*place)[1], -0.2, 1e-12);
+  EXPECT_FALSE(imagePlace(eye, rayThrough(eye, 0.3, -0.2).at(-1))) << "behind the eye";
+}
+
 TEST(ViewPick, ReturnsNearestHit) {
   const Ray ray = rayThrough(ahead(), 0, 0);
   const Float3 balls[] = {{0, 0, -3}, {0.05f, 0, -1}, {0.2f, 0, 0}, {0, 0, 7}};  // the third is beside the ray, the last behind the eye

@@ -98,6 +98,34 @@ TEST_F(ViewWindowTest, MouseInteractionReplaysBitwise) {
   EXPECT_EQ(figure(restarted, "steps"), "4") << "R while the fluid is held; its frame shows the start";
 }
 
+TEST_F(ViewWindowTest, CratesAreThrownAndBodiesPulledByScript) {
+  folder.write("harbor.json", R"({
+    "rill": "0.2", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+    "fill": [{"box": {"min": [0, 0, 0], "max": [1, 0.3, 0.3]}}],
+    "solids": [{"name": "buoy", "box": {"min": [0.2, 0.2, 0.05], "max": [0.4, 0.4, 0.25]}, "body": {"density": 500}}],
+    "camera": {"eye": [0.5, 0.5, 2.2], "target": [0.5, 0.5, 0], "fov_y_deg": 40}
+  })");
+  // Of 200 pixels of the picture a meter takes about 130: the buoy is left of the middle and below it.
+  const std::string begin = "0 key Tab\n";
+  folder.write("still.txt", begin);
+  folder.write("thrown.txt", begin + "3 move 200 60\n3 key B\n");
+  folder.write("pulled.txt", begin + "3 move 132 130\n3 press right\n4 move 132 60\n18 release right\n");
+  const auto run = [&](const char* script) {
+    return view({(folder / "harbor.json").string(), "--script", script, "--size", "320x200", "--frames", "22", "--validate"});
+  };
+  const Outcome still = run("still.txt");
+  EXPECT_EQ(figure(still, "bodies"), "1");
+  for (const char* script : {"thrown.txt", "pulled.txt"}) {
+    const Outcome touched = run(script);
+    EXPECT_EQ(touched.code, 0) << touched.err;
+    EXPECT_EQ(touched.err, "") << script;
+    EXPECT_EQ(figure(touched, "particles"), figure(still, "particles"));
+    EXPECT_EQ(figure(touched, "bodies"), std::string_view(script) == "thrown.txt" ? "2" : "1");
+    EXPECT_NE(figure(touched, "state_hash"), figure(still, "state_hash")) << script;
+    EXPECT_EQ(figure(touched, "state_hash"), figure(run(script), "state_hash")) << script;
+  }
+}
+
 TEST_F(ViewWindowTest, PanelsConsumeTheirClicks) {
   // On the button "Pause (P)", and in the picture, where it does not pause.
   folder.write("click.txt", "1 move 42 97\n1 press left\n2 release left\n9 view final\n");

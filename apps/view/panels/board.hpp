@@ -19,6 +19,12 @@
 
 namespace rill::view {
 
+/// A change of a body's density.
+struct DensityChange {
+  uint32_t solid = 0;
+  double density = 0;  ///< kg/m^3
+};
+
 /// Requests of this frame.
 struct Requests {
   std::optional<Override> change;
@@ -26,6 +32,7 @@ struct Requests {
   std::optional<std::filesystem::path> open;
   std::optional<VkPresentModeKHR> mode;
   std::optional<size_t> device;  ///< index
+  std::optional<DensityChange> density;
   bool restart = false, oneStep = false, save = false;
 };
 
@@ -48,6 +55,7 @@ struct Board {
   double picture_s = 0;     ///< device time of the last picture
   std::span<const offline::ListedDevice> devices;
   DeviceMemory memory;
+  std::optional<std::array<Place, 2>> pullLine;  ///< see Controls::pullLine()
   bool lockstep = false;
   Requests requests;
 };
@@ -58,6 +66,7 @@ void drawPanels(Board& board);
 void scenePanel(Board& board);
 void parameterPanel(Board& board);
 void figurePanel(Board& board);
+void bodyPanel(Board& board);
 void passPanel(Board& board);
 void memoryPanel(Board& board);
 void helpOverlay(Board& board);
@@ -65,5 +74,7 @@ void legendOverlay(Board& board);
 
 /// A line with a name and a value; values are aligned.
 void figureLine(const char* name, const char* format, ...) IM_FMTARGS(2);
+/// A plot from `low` to `high`, `ems` high.
+void plot(const char* name, const History& history, float low, float high, float ems);
 
 }  // namespace rill::view

@@ -8,8 +8,8 @@
 namespace rill::view {
 namespace {
 
-/// `format`: of a line with the last value above the plot; null: no line.
-void plot(const char* name, const History& history, const char* format) {
+/// From 0 on. `format`: of a line with the last value above the plot; null: no line.
+void figurePlot(const char* name, const History& history, const char* format) {
   const std::vector<float>& values = history.values();
   if (values.empty()) return;
   if (format) {
@@ -18,22 +18,27 @@ void plot(const char* name, const History& history, const char* format) {
     figureLine(name, "%s", now);
   }
   const float top = *std::ranges::max_element(values);
-  ImGui::PushID(name);
-  ImGui::PlotLines("##plot", values.data(), static_cast<int>(values.size()), 0, nullptr, 0, top > 0 ? 1.1f * top : 1,
-                   ImVec2(ImGui::GetContentRegionAvail().x, 2.0f * ImGui::GetFontSize()));
-  ImGui::PopID();
+  plot(name, history, 0, top > 0 ? 1.1f * top : 1, 2);
 }
 
 }  // namespace
 
+void plot(const char* name, const History& history, float low, float high, float ems) {
+  const std::vector<float>& values = history.values();
+  ImGui::PushID(name);
+  ImGui::PlotLines("##plot", values.data(), static_cast<int>(values.size()), 0, nullptr, low, high,
+                   ImVec2(ImGui::GetContentRegionAvail().x, ems * ImGui::GetFontSize()));
+  ImGui::PopID();
+}
+
 void figurePanel(Board& board) {
   const Histories& h = board.histories;
   figureLine("particles", "%s", grouped(board.session.runner().fluid().count()).c_str());
-  plot("particles", h.particles, nullptr);
-  plot("step", h.wall_ms, "%.1f ms");
-  plot("substeps a step", h.substeps, "%.0f");
-  plot("iterations a step", h.iterations, "%.0f");
-  plot("compression mean", h.error, "%.3f %%");
+  figurePlot("particles", h.particles, nullptr);
+  figurePlot("step", h.wall_ms, "%.1f ms");
+  figurePlot("substeps a step", h.substeps, "%.0f");
+  figurePlot("iterations a step", h.iterations, "%.0f");
+  figurePlot("compression mean", h.error, "%.3f %%");
   if (board.stats) {
     figureLine("compression p99", "%.3f %%", 100 * board.stats->densityErrorP99);
     figureLine("max speed", "%.3g m/s", board.stats->maxSpeed);

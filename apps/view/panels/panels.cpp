@@ -47,6 +47,20 @@ void statusLine(Board& board) {
   ImGui::TextUnformatted(text.c_str());
 }
 
+/// From the point that a body was grabbed by to the pointer.
+void pullLine(const Board& board) {
+  if (!board.pullLine) return;
+  const auto at = [&](size_t k) { return ImVec2(static_cast<float>((*board.pullLine)[k].x), static_cast<float>((*board.pullLine)[k].y)); };
+  const float width = 2 * board.interface.scale();
+  const Area& area = board.layout.picture;
+  ImDrawList& lines = *ImGui::GetBackgroundDrawList();
+  lines.PushClipRect(ImVec2(static_cast<float>(area.x), static_cast<float>(area.y)),
+                     ImVec2(static_cast<float>(area.x + area.width), static_cast<float>(area.y + area.height)));
+  lines.AddLine(at(0), at(1), IM_COL32(255, 200, 60, 255), width);
+  lines.AddCircleFilled(at(0), 2 * width, IM_COL32(255, 200, 60, 255));
+  lines.PopClipRect();
+}
+
 void messageBox(Board& board) {
   if (board.message.empty()) return;
   const Area& area = board.layout.picture;
@@ -85,6 +99,7 @@ void drawPanels(Board& board) {
     ImGui::End();
     begin("right", layout.right);
     section(board, "Figures", figurePanel, true);
+    if (!board.session.runner().fluid().bodies().empty()) section(board, "Bodies", bodyPanel, true);
     section(board, "Memory", memoryPanel, false);
     section(board, "Passes", passPanel, true);
     ImGui::End();
@@ -96,6 +111,7 @@ void drawPanels(Board& board) {
     ImGui::End();
     ImGui::PopStyleVar(3);
   }
+  pullLine(board);
   legendOverlay(board);
   messageBox(board);
   if (board.settings.help) helpOverlay(board);
