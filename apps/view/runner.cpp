@@ -238,7 +238,10 @@ Pose Runner::pose(uint32_t solid) const {
   for (const BodyMotion& motion : fluid_->bodies())
     if (motion.solid == solid) return bodyPose(scene_.solids[solid], motion);
   Pose current = solidPose(scene_.solids[solid], time_s());
-  if (scene_.solids[solid].driven > 0) current.center = fluid_->drivenCenter(solid);
+  if (scene_.solids[solid].driven > 0) {
+    current.center = fluid_->drivenCenter(solid);
+    current.rotation = fluid_->drivenRotation(solid);
+  }
   return current;
 }
 

@@ -178,10 +178,9 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
     std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);
     if (solid.driven > 0) {
       record.driven = 1;
-      keyframes.assign(2, KeyframeRecord{.rotationW = 1});
-      const PoseRecord& p = record.pose;
-      setup.driven.push_back({static_cast<uint32_t>(setup.solids.size()), solid.driven, {p.centerX, p.centerY, p.centerZ}});
-      record.base.centerX = record.base.centerY = record.base.centerZ = 0;
+      const auto still = drivenKeyframes(record.pose, record.pose, 0);
+      keyframes.assign(still.begin(), still.end());
+      setup.driven.push_back({static_cast<uint32_t>(setup.solids.size()), solid.driven, boundingRadius(solid.shape), record.pose});
     }
     record.firstKey = static_cast<uint32_t>(setup.keyframes.size() / kKeyframeNumbers);
     record.keyCount = static_cast<uint32_t>(keyframes.size());

@@ -3,9 +3,21 @@
 #include <limits>
 #include <optional>
 
+#include "core/vector_math.hpp"
 #include "fluid/fluid_impl.hpp"
+#include "shape/records.hpp"
 
 namespace rill {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+const DrivenSolid* drivenSolid(const FluidSetup& setup, uint32_t solid) {
+  const auto found = std::ranges::find(setup.driven, solid, &DrivenSolid::solid);
+  return found == setup.driven.end() ? nullptr : &*found;
+}
+
+}  // namespace
 
 Fluid::Fluid(std::unique_ptr<FluidImpl> impl) : impl_(std::move(impl)) {}
 Fluid::~Fluid() = default;
@@ -53,13 +65,14 @@ std::span<const BodyMotion> Fluid::bodies() const {
 }
 
 Double3 Fluid::drivenCenter(uint32_t solid) const {
-  const auto& driven = impl_->setup.driven;
-  const auto found = std::find_if(driven.begin(), driven.end(), [solid](const DrivenSolid& d) { return d.solid == solid; });
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  if (found == driven.end()) return {kNaN, kNaN, kNaN};
-  Double3 center;
-  for (size_t a = 0; a < 3; ++a) center[a] = impl_->origin[a] + found->center[a];
-  return center;
+  const DrivenSolid* driven = drivenSolid(impl_->setup, solid);
+  if (!driven) return {kNaN, kNaN, kNaN};
+  return along(impl_->origin, 1, centerOf(driven->pose));
+}
+
+Quaternion Fluid::drivenRotation(uint32_t solid) const {
+  const DrivenSolid* driven = drivenSolid(impl_->setup, solid);
+  return driven ? rotationOf(driven->pose) : Quaternion{kNaN, kNaN, kNaN, kNaN};
 }
 
 uint32_t Fluid::count() const {

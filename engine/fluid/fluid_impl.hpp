@@ -103,7 +103,7 @@ class FluidImpl {
   struct Drive {
     uint64_t number = 0;
     uint64_t frame = 0;  ///< into whose commands it was recorded; 0: not yet
-    std::vector<Float3> from;
+    std::vector<PoseRecord> from;
   };
 
   // fluid.cpp
@@ -176,7 +176,7 @@ class FluidImpl {
   bool uploaded_ = false;
   std::optional<uint64_t> uploadFrame_;  // into whose commands the upload was recorded
   bool resumed_ = false;                 // from a snapshot
-  float drivenSpeed_ = 0;                // m/s, the fastest driven solid of the advance declared last
+  float drivenSpeed_ = 0;                // m/s, of the fastest point of driven solids in the advance declared last
   double emptyTime_ = 0;                 // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;
   Recorded recording_;                              // by all frames that were declared

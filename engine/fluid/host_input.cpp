@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vector_math.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "gpu/device_impl.hpp"
+#include "shape/records.hpp"
 
 namespace rill {
 
@@ -48,7 +50,7 @@ void FluidImpl::forgetAbandoned() {
     uploadFrame_.reset();
   }
   for (; !drives_.empty() && device_->abandoned(drives_.back().frame); drives_.pop_back())
-    for (size_t k = 0; k < setup.driven.size(); ++k) setup.driven[k].center = drives_.back().from[k];
+    for (size_t k = 0; k < setup.driven.size(); ++k) setup.driven[k].pose = drives_.back().from[k];
   while (!drives_.empty() && drives_.front().frame <= device_->clock.completed) drives_.pop_front();
 }
 
@@ -63,23 +65,21 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   drive.number = ++driveCount_;
   drivenSpeed_ = 0;
   for (DrivenSolid& driven : setup.driven) {
-    const Float3 from = driven.center;
-    Float3 to = from;
+    const PoseRecord from = driven.pose;
     drive.from.push_back(from);
     for (const SolidTarget& target : step.targets) {
-      Double3 displacement;
-      for (int a = 0; a < 3; ++a) displacement[a] = target.center[a] - origin[a] - from[a];
-      const double length = std::hypot(displacement[0], displacement[1], displacement[2]);
-      if (target.solid != driven.solid || !std::isfinite(length)) continue;
-      const double share = length > 0 ? std::min(1.0, driven.fastest * step.advance_s / length) : 0.0;
-      for (int a = 0; a < 3; ++a) to[a] = static_cast<float>(from[a] + share * displacement[a]);
-      drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * length / step.advance_s));
+      const Double3 displacement = minus(minus(target.center, origin), centerOf(from));
+      const Double3 turn = target.rotation ? turnBetween(rotationOf(from), normalized(*target.rotation)) : Double3{};
+      const double distance = length(displacement) + driven.radius * length(turn);
+      if (target.solid != driven.solid || !std::isfinite(distance)) continue;
+      const double share = distance > 0 ? std::min(1.0, driven.fastest * step.advance_s / distance) : 0.0;
+      driven.pose = recordOf(Pose{.center = along(centerOf(from), share, displacement),
+                                  .rotation = target.rotation ? normalized(turned(rotationOf(from), share, turn)) : rotationOf(from)},
+                             {});
+      drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * distance / step.advance_s));
     }
-    driven.center = to;
-    const auto key = [](const Float3& x, double at) {
-      return KeyframeRecord{.x = x.x, .y = x.y, .z = x.z, .at = static_cast<float>(at), .rotationW = 1};
-    };
-    keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * sizeof(KeyframeRecord), {key(from, 0), key(to, step.advance_s)}});
+    const auto keyframes = drivenKeyframes(from, driven.pose, step.advance_s);
+    keys.push_back({uint64_t{setup.solids[driven.solid].firstKey} * sizeof keyframes[0], keyframes});
   }
   graph.pass("drive solids", [&](Pass& pass) {
     BufferRef& keyframes = ref(FluidArray::Keyframes);

@@ -1,5 +1,6 @@
 // One step as graph passes: begin, blocks of (rebuild, substeps), measure. See docs/method.md.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/words.hpp"
@@ -101,9 +102,16 @@ bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
   if (!(step.advance_s >= 0 && step.advance_s <= std::numeric_limits<float>::max()))
     return invalid("advance_s is " + shortestNumber(step.advance_s) + "; expected a finite time of at least 0 (s)");
   if (step.queued && !setup.driven.empty()) return invalid("queued is set; expected false where solids are driven");
-  for (size_t k = 0; k < step.targets.size(); ++k)
-    if (step.targets[k].solid >= setup.solids.size())
-      return invalid("targets[" + std::to_string(k) + "]." + solidOutOfRange(step.targets[k].solid));
+  for (size_t k = 0; k < step.targets.size(); ++k) {
+    const SolidTarget& target = step.targets[k];
+    const std::string name = "targets[" + std::to_string(k) + "].";
+    if (target.solid >= setup.solids.size()) return invalid(name + solidOutOfRange(target.solid));
+    if (!target.rotation) continue;
+    const auto [x, y, z, w] = *target.rotation;
+    if (const double square = x * x + y * y + z * z + w * w; !(square > 0 && std::isfinite(square)))
+      return invalid(name + "rotation is (" + shortestNumber(x) + ", " + shortestNumber(y) + ", " + shortestNumber(z) + ", " +
+                     shortestNumber(w) + "); expected a finite quaternion x y z w of a length above 0");
+  }
   if (const std::string fault = faultOfPulls(step); !fault.empty()) return invalid(fault);
   return true;
 }

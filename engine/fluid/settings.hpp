@@ -38,8 +38,9 @@ inline constexpr uint32_t kContactIterations = 4;
 /// A solid that the host moves.
 struct DrivenSolid {
   uint32_t solid = 0;
-  double fastest = 0;  ///< m/s
-  Float3 center = {};  ///< m, relative to the particles' origin: where it is at the end of the last advance that was declared
+  double fastest = 0;  ///< m/s, of its points
+  double radius = 0;   ///< m, about its center
+  PoseRecord pose{};   ///< relative to the particles' origin, at the end of the last advance that was declared; velocities are unused
 };
 
 struct FluidSetup {

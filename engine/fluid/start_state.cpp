@@ -120,7 +120,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(slotOf(FluidArray::Sums), sums.size() * 4, bytesOf(sums));
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
-  for (DrivenSolid& driven : setup.driven) std::copy_n(s.solids.data() + kPoseNumbers * driven.solid, 3, driven.center.begin());
+  for (DrivenSolid& driven : setup.driven) driven.pose = poseAt(s.solids, driven.solid);
   staging_->add(slotOf(FluidArray::Solids), solids.size() * sizeof(SolidRecord), bytesOf(solids));
   std::vector<BodyRecord> bodies = setup.bodies;  // of the snapshot, their states and what the last substep left
   for (size_t k = 0; k < bodies.size(); ++k) {

@@ -50,9 +50,8 @@ Displacement displacementAt(const Solid& solid, double t) {
   const double span = next->at - last.at, since = t - last.at;
   out.velocity = over(minus(next->translate, out.translation), span);
   out.angularVelocity = over(turnBetween(out.rotation, next->rotate), span);
-  const Double3& w = out.angularVelocity;
   for (size_t a = 0; a < 3; ++a) out.translation[a] += since * out.velocity[a];
-  out.rotation = composed(rotationBy({since * w[0], since * w[1], since * w[2]}), out.rotation);
+  out.rotation = turned(out.rotation, since, out.angularVelocity);
   return out;
 }
 
@@ -76,6 +75,15 @@ Double3 turnBetween(const Quaternion& from, const Quaternion& to) {
   const Double3 axis = {by[0], by[1], by[2]};
   const double sine = lengthOf(axis), scale = sine > 0 ? 2 * std::atan2(sine, by[3]) / sine : 0;
   return {scale * axis[0], scale * axis[1], scale * axis[2]};
+}
+
+Quaternion turned(const Quaternion& q, double share, const Double3& turn) {
+  return composed(rotationBy({share * turn[0], share * turn[1], share * turn[2]}), q);
+}
+
+Quaternion normalized(const Quaternion& q) {
+  const double length = std::hypot(std::hypot(q.x, q.y, q.z), q.w);
+  return {q.x / length, q.y / length, q.z / length, q.w / length};
 }
 
 Pose solidPose(const Solid& solid, double t) {

@@ -16,6 +16,12 @@ struct Pose {
 /// Rotation vector (rad) that leads from one unit quaternion to another the shorter way, in the scene's frame.
 Double3 turnBetween(const Quaternion& from, const Quaternion& to);
 
+/// The rotation q, then `share` of a rotation vector (rad, in the scene's frame).
+Quaternion turned(const Quaternion& q, double share, const Double3& turn);
+
+/// Of unit length; `q` is finite and not zero.
+Quaternion normalized(const Quaternion& q);
+
 /// The pose at `t` (s): linear and spherical linear between keyframes, constant outside. The velocities are the slopes of the keyframes,
 /// right-continuous; 0 before the first and after the last.
 Pose solidPose(const Solid& solid, double t);

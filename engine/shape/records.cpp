@@ -55,6 +55,28 @@ std::vector<KeyframeRecord> keyframeRecords(const Solid& solid) {
   return records;
 }
 
+Double3 centerOf(const PoseRecord& pose) { return {pose.centerX, pose.centerY, pose.centerZ}; }
+
+Quaternion rotationOf(const PoseRecord& pose) { return {pose.rotationX, pose.rotationY, pose.rotationZ, pose.rotationW}; }
+
+std::array<KeyframeRecord, 2> drivenKeyframes(const PoseRecord& from, const PoseRecord& to, double seconds) {
+  const Double3 turn = turnBetween(rotationOf(from), rotationOf(to));
+  const auto keyframe = [&](const PoseRecord& pose, double at) {
+    return KeyframeRecord{.x = pose.centerX,
+                          .y = pose.centerY,
+                          .z = pose.centerZ,
+                          .at = f(at),
+                          .rotationX = pose.rotationX,
+                          .rotationY = pose.rotationY,
+                          .rotationZ = pose.rotationZ,
+                          .rotationW = pose.rotationW,
+                          .turnX = f(turn.x),
+                          .turnY = f(turn.y),
+                          .turnZ = f(turn.z)};
+  };
+  return {keyframe(from, 0), keyframe(to, seconds)};
+}
+
 void appendPose(const PoseRecord& pose, std::vector<float>& numbers) {
   const auto all = std::bit_cast<std::array<float, kPoseNumbers>>(pose);
   numbers.insert(numbers.end(), all.begin(), all.end());

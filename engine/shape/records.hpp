@@ -1,5 +1,6 @@
 #pragma once
 // Solids as the device's records.
+#include <array>
 #include <vector>
 
 #include "shape/pose.hpp"
@@ -16,8 +17,14 @@ PoseRecord recordOf(const Pose& pose, const Double3& origin);
 /// A solid before any motion.
 PoseRecord baseRecord(const Solid& solid, const Double3& origin);
 
+Double3 centerOf(const PoseRecord& pose);
+Quaternion rotationOf(const PoseRecord& pose);
+
 /// A solid's motion.
 std::vector<KeyframeRecord> keyframeRecords(const Solid& solid);
+
+/// A driven solid's motion in an advance of `seconds`.
+std::array<KeyframeRecord, 2> drivenKeyframes(const PoseRecord& from, const PoseRecord& to, double seconds);
 
 /// The numbers of a pose, as a FluidSnapshot has them.
 inline constexpr size_t kPoseNumbers = sizeof(PoseRecord) / sizeof(float);

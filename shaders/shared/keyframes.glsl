@@ -11,6 +11,14 @@ vec2 sineAndCosine(float x) {
   return vec2(sine, cosine);
 }
 
+// A rotation after `seconds` at an angular velocity, up to half a turn.
+vec4 turnedFor(vec4 q, vec3 angular, float seconds) {
+  float speed = length(angular);
+  if (!(speed > 0.0)) return q;
+  vec2 turn = sineAndCosine(0.5 * speed * seconds);
+  return normalize(composed(vec4(angular * (turn.x / speed), turn.y), q));
+}
+
 // The pose at a time (s) of a solid that starts at `base`: linear and spherical linear between keyframes, held outside.
 PoseRecord keyframedPose(PoseRecord base, uint first, uint count, float time) {
   if (count == 0u) return base;
@@ -28,11 +36,7 @@ PoseRecord keyframedPose(PoseRecord base, uint first, uint count, float time) {
     velocity = (vec3(b.x, b.y, b.z) - moved) / span;
     moved += velocity * since;
     angular = vec3(a.turnX, a.turnY, a.turnZ) / span;
-    float speed = length(angular);
-    if (speed > 0.0) {
-      vec2 turn = sineAndCosine(0.5 * speed * since);  // at most half a turn from keyframe to keyframe
-      turned = normalize(composed(vec4(angular * (turn.x / speed), turn.y), turned));
-    }
+    turned = turnedFor(turned, angular, since);
   }
   return poseOf(centerOf(base) + moved, composed(turned, rotationOf(base)), velocity, angular);
 }

@@ -21,7 +21,7 @@ struct PoseRecord {
   float angularX, angularY, angularZ;                // rad/s, angular velocity in the scene's frame
 };
 
-// Displacement from the initial pose at a time.
+// Displacement from the initial pose at a time; of a driven solid its pose.
 struct KeyframeRecord {
   float x, y, z;                                     // m
   float at;                                          // s
@@ -36,9 +36,9 @@ struct SolidRecord {
   ShapeRecord shape;
   float friction, restitution;
   float radius;                // m, of the sphere around the center that holds the shape
-  PoseRecord base;             // before any motion; of a driven solid its center is 0
+  PoseRecord base;             // before any motion
   uint firstKey, keyCount;     // entries of the keyframe buffer
-  uint driven;                 // 1: two keyframes, where it is at the begin and at the end of the advance, with seconds since its begin
+  uint driven;                 // 1: two keyframes, its poses at the begin and at the end of the advance, with seconds since its begin
   uint body;                   // index of its BodyRecord, or kNoBody
   uint tableOffset;            // sphere: entries into the table buffer
   uint tableNodes;

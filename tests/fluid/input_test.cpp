@@ -95,7 +95,15 @@ TEST_F(FluidInput, RejectsInvalidSteps) {
   EXPECT_EQ(invalid({.advance_s = 1e300}), "FluidStep::advance_s is 1e+300; expected a finite time of at least 0 (s)");
   const SolidTarget unknown[] = {{.solid = 0}, {.solid = 7}};
   EXPECT_EQ(invalid({.advance_s = 0.01, .targets = unknown}), "FluidStep::targets[1].solid is 7; the scene has 1 solid");
+  for (const auto& [bad, text] : {std::pair{Quaternion{0, 0, 0, 0}, "(0, 0, 0, 0)"},
+                                  {Quaternion{0, kNan, 0, 1}, "(0, nan, 0, 1)"},
+                                  {Quaternion{0, 0, -kInf, 1}, "(0, 0, -inf, 1)"}}) {
+    const SolidTarget turned[] = {{.solid = 0, .rotation = bad}};
+    EXPECT_EQ(invalid({.advance_s = 0.01, .targets = turned}),
+              "FluidStep::targets[0].rotation is " + std::string(text) + "; expected a finite quaternion x y z w of a length above 0");
+  }
   for (const double v : run->fluid().drivenCenter(7)) EXPECT_TRUE(std::isnan(v));
+  for (const double v : run->fluid().drivenRotation(7)) EXPECT_TRUE(std::isnan(v));
   EXPECT_TRUE(std::isfinite(run->fluid().drivenCenter(0)[0]));
   EXPECT_EQ(run->snapshot(), before);
   run->advance(0.01);

@@ -91,10 +91,12 @@ RILL_API FluidMemory fluidMemory(const Scene& scene, uint64_t particles);
 /// (Device::availableBytes), in buffers of DeviceInfo::maxBufferBytes. `scene` must pass checkScene().
 RILL_API uint32_t maxParticles(const Device& device, const Scene& scene);
 
-/// Target position of a driven solid at the end of an advance.
+/// Target pose of a driven solid at the end of an advance.
 struct SolidTarget {
   uint32_t solid = 0;          ///< index into Scene::solids; a solid with `driven` 0 does not move
-  Double3 center = {0, 0, 0};  ///< m; not finite: the solid does not move
+  Double3 center = {0, 0, 0};  ///< m; of a mesh: its origin; not finite: the solid does not move or turn
+  /// From the solid's frame to the scene's, about the center: x y z w, finite, of any length above 0. None: the solid does not turn.
+  std::optional<Quaternion> rotation = {};
 };
 
 /// A damped spring between a point of a body and a point of the scene, as of a mouse or a rope. It is implicit in time: stiff springs are
@@ -115,8 +117,9 @@ struct FluidStep {
   bool resume = false;     ///< continue an advance that the last graph did not complete, as offline callers do
   uint32_t substeps = 64;  ///< largest number to record, rounded up to multiples of Fluid::substepsPerBlock()
   bool stats = false;      ///< measure FluidStats at the end
-  /// Targets of driven solids. Each moves in a straight line at constant speed, at most Solid::driven; solids without a target rest.
-  /// Not kept after addTo(). Ignored with `resume`, and without particles.
+  /// Targets of driven solids. Each moves in a straight line and turns the shorter way, at constant velocities. Where a point of it might
+  /// be faster than Solid::driven, it gets only part of both ways. Solids without a target rest. Not kept after addTo(). Ignored with
+  /// `resume`, and without particles.
   std::span<const SolidTarget> targets = {};
   /// Springs that pull bodies during the advance, at most 64. Several on one body act one after another. Not kept after addTo(). Ignored
   /// with `resume`, and until simulated time begins.
@@ -201,7 +204,7 @@ class RILL_API Fluid {
   Fluid& operator=(Fluid&&) noexcept;
 
   /// Adds the passes of one step; the fluid advances when the graph is recorded and executed. A negative or non-finite time, an
-  /// invalid solid index and an invalid pull are reported by the graph's compile(); no pass is added then.
+  /// invalid target and an invalid pull are reported by the graph's compile(); no pass is added then.
   FluidState addTo(Graph& graph, const FluidStep& step);
   /// The current particles, also between the pieces of an advance. Adds no pass. Requires an earlier graph with addTo().
   FluidState present(Graph& graph) const;
@@ -228,6 +231,8 @@ class RILL_API Fluid {
   /// Center of a driven solid at the end of the last declared advance, m: the target, or a point on the path to it if the target was too
   /// far. NaN for a solid that is not driven.
   Double3 drivenCenter(uint32_t solid) const;
+  /// Its rotation then, a unit quaternion x y z w, likewise.
+  Quaternion drivenRotation(uint32_t solid) const;
 
   uint32_t count() const;     ///< particles of the last finished frame, including inactive ones
   uint32_t capacity() const;  ///< particles that there is room for

@@ -144,8 +144,8 @@ struct Solid {
   double restitution = 0;              ///< coefficient of restitution, 0 .. 1
   std::vector<Keyframe> motion = {};
   std::optional<Body> body = {};  ///< a rigid body; without motion, not driven, not a two-sided mesh
-  double driven = 0;              ///< largest speed, m/s, of a solid that the host moves (FluidStep::targets); 0: not moved by the host
-  std::string name = {};          ///< unique among solids, or empty
+  double driven = 0;      ///< largest speed of its points, m/s, where the host moves it (FluidStep::targets); 0: not moved by the host
+  std::string name = {};  ///< unique among solids, or empty
 };
 
 /// Gravity from a given time on.
