@@ -27,6 +27,7 @@ test  doxygen                 Doxygen 1.9 or newer (the pages of the public head
 test  clang                   clang (also compiles the public headers)
 test  libgtest-dev            GoogleTest
 test  libvulkan-volk-dev      volk (used by a test host)
+test  libbullet-dev           Bullet 3 (used by a test host)
 test  pkgconf                 pkg-config (builds a test host)
 test  glslang-dev             glslang (library, for shader reload in development builds and a test)
 test  binutils                binutils (nm)

@@ -88,6 +88,49 @@ TEST(SameGame, RendersIdenticalPixels) {
   for (const char* way : {"water_volk", "water_shared", "water_plain"}) EXPECT_TRUE(usual.rgb == pictureOf(way).rgb) << way;
 }
 
+/// What crates.cpp prints of a crate.
+struct Floating {
+  double ratio = 0, draught = 0, tilt_deg = 0, speed = 0;
+};
+
+TEST(Crates, FloatAtTheirDraught) {
+  const TemporaryFolder folder;
+  const fs::path program = kOut / "build-embed/crates";
+  ASSERT_TRUE(fs::exists(program)) << program << " was not built: is what it needs installed? (apps/setup.sh)";
+  const std::string file = (folder / "out.ppm").string();
+  const Outcome outcome = Child({program.string(), file}, ".", kValidation).wait();
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  std::istringstream text(outcome.out);
+  std::vector<Floating> crates;
+  for (std::string line; std::getline(text, line);) {
+    Floating c;
+    ASSERT_EQ(std::sscanf(line.c_str(), "density %lf: draught %lf of its height, tilt %lf degrees, %lf m/s", &c.ratio, &c.draught,
+                          &c.tilt_deg, &c.speed),
+              4)
+        << "not a validation message, but: " << line;
+    crates.push_back(c);
+  }
+  ASSERT_EQ(crates.size(), 5u);
+  for (const Floating& c : crates) {
+    SCOPED_TRACE(c.ratio);
+    EXPECT_NEAR(c.draught, std::min(c.ratio, 1.0), 0.125) << "half a spacing";
+    EXPECT_LT(c.tilt_deg, 10);
+    EXPECT_LT(c.speed, c.ratio > 1 ? 0.02 : 0.3) << "waves move what floats, not what lies on the floor";
+  }
+  // The picture has crates and water.
+  const Picture picture = readPicture(file);
+  ASSERT_EQ(picture.rgb.size(), 3u * 480 * 270);
+  size_t wood = 0, water = 0;
+  for (size_t k = 0; k < picture.rgb.size(); k += 3) {
+    const int r = picture.rgb[k], g = picture.rgb[k + 1], b = picture.rgb[k + 2];
+    wood += r > g + 30 && g > b + 20;
+    water += b > r + 40;  // the sky is grayer
+  }
+  EXPECT_GT(wood, 2000u);
+  EXPECT_GT(water, 10000u);
+}
+
 TEST(WaterBetween, OccludesLaterDrawsByDepth) {
   const Picture& picture = pictureOf("between");
   ASSERT_FALSE(picture.rgb.empty());

@@ -10,9 +10,20 @@ namespace {
 #include "cuboid_vert.inc"
 
 struct Push {
-  Matrix clipFromWorld;
-  Cuboid cuboid;
+  Matrix clipFromLocal;
+  float low[4], high[4], color[4];  ///< the fourth ones: direction to the light in the cuboid's frame
 };
+
+Push pushOf(const Matrix& clipFromWorld, const Cuboid& cuboid) {
+  constexpr float kToLight[3] = {-0.3f, 0.84f, 0.45f};
+  Push push{clipFromWorld * cuboid.pose, {}, {}, {}};
+  float* const light[3] = {&push.low[3], &push.high[3], &push.color[3]};
+  for (int a = 0; a < 3; ++a) {
+    push.low[a] = cuboid.low[a], push.high[a] = cuboid.high[a], push.color[a] = cuboid.color[a];
+    for (int b = 0; b < 3; ++b) *light[a] += cuboid.pose.m[a][b] * kToLight[b];
+  }
+  return push;
+}
 
 }  // namespace
 
@@ -153,7 +164,7 @@ void Cuboids::draw(VkRenderPass pass, const Frame& frame, const Matrix& clipFrom
   vkCmdBeginRenderPass(frame.commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
   vkCmdBindPipeline(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
   for (uint32_t k = 0; k < count; ++k) {
-    const Push push{clipFromWorld, cuboids[k]};
+    const Push push = pushOf(clipFromWorld, cuboids[k]);
     vkCmdPushConstants(frame.commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
     vkCmdDraw(frame.commands, 36, 1, 0, 0);
   }

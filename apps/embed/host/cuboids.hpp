@@ -6,7 +6,8 @@
 namespace host {
 
 struct Cuboid {
-  float low[4], high[4], color[4];
+  float low[3], high[3], color[3];
+  Matrix pose = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};  ///< to the world: rotation and translation
 };
 
 class Cuboids {

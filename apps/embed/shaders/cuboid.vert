@@ -1,9 +1,8 @@
 #version 450
 // A cuboid of 36 vertices, computed from the vertex index.
 layout(push_constant) uniform Push {
-  mat4 clip_from_world;
-  vec4 low, high;
-  vec4 color;
+  mat4 clip_from_local;
+  vec4 low, high, color;  // w: direction to the light
 };
 layout(location = 0) out vec3 shade;
 
@@ -17,6 +16,6 @@ void main() {
   unit[(axis + 2) % 3] = float(at.y);
   vec3 normal = vec3(0);
   normal[axis] = float(side % 2 * 2 - 1);
-  shade = color.rgb * (0.55 + 0.45 * max(dot(normal, normalize(vec3(-0.3, 0.84, 0.45))), 0.0));
-  gl_Position = clip_from_world * vec4(mix(low.xyz, high.xyz, unit), 1);
+  shade = color.rgb * (0.55 + 0.45 * max(dot(normal, normalize(vec3(low.w, high.w, color.w))), 0.0));
+  gl_Position = clip_from_local * vec4(mix(low.xyz, high.xyz, unit), 1);
 }
