@@ -19,6 +19,10 @@ uint64_t perParticleIfSolids(const ArrayShape& s) { return s.solids > 0 ? s.part
 
 uint64_t perSolidIfLoads(const ArrayShape& s) { return s.loads ? s.solids : 0; }
 
+uint64_t sumsOfSolids(const ArrayShape& s) {
+  return kSolidSumWords * perSolidIfLoads(s) + (s.noSlipBodies ? kNoSlipSumWords * s.bodies : 0);
+}
+
 template <bool ArrayShape::*Feature>
 uint64_t perParticleIf(const ArrayShape& s) {
   return s.*Feature ? s.particles : 0;
@@ -38,7 +42,7 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
     {GravityChanges, "gravityChanges", "gravity schedule", Fluid, kVector, [](const ArrayShape& s) { return s.gravityChanges; }},
     {Table, "table", "density tables of solids", Fluid, kVector, [](const ArrayShape& s) { return s.tableEntries; }},
     {Solids, "solids", "solids", Fluid, sizeof(SolidRecord), [](const ArrayShape& s) { return s.solids; }},
-    {SolidSums, "solidSums", "sums of solids", Fluid, kSolidSumWords* kWord, perSolidIfLoads},
+    {SolidSums, "solidSums", "sums of solids", Fluid, kWord, sumsOfSolids},
     {SolidLoads, "solidLoads", "loads on solids", Fluid, sizeof(SolidLoadRecord), perSolidIfLoads},
     {Bodies, "bodies", "rigid bodies", Fluid, sizeof(BodyRecord), [](const ArrayShape& s) { return s.bodies; }},
     {ContactPoints, "contactPoints", "contact points of bodies", Fluid, sizeof(ContactPointRecord),
@@ -131,7 +135,8 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .multipliers = keepsMultipliers(setup),
           .smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0,
           .vorticity = p.vorticity > 0,
-          .loads = setup.loads};
+          .loads = setup.loads,
+          .noSlipBodies = setup.noSlipBodies};
 }
 
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
@@ -149,7 +154,8 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,
           .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
           .vorticity = scene.fluid.vorticity > 0,
-          .loads = !scene.solids.empty()};  // a host may ask for them
+          .loads = !scene.solids.empty(),  // a host may ask for them
+          .noSlipBodies = true};
 }
 
 uint64_t arrayBytes(FluidArray array, const ArrayShape& shape) {

@@ -89,7 +89,7 @@ struct ArrayShape {
   uint64_t cellStarts = 0;   ///< entries
   uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, meshWords = 0,
            keyframes = 0;
-  bool lists = true, warm = false, multipliers = false, smooths = false, vorticity = false, loads = false;
+  bool lists = true, warm = false, multipliers = false, smooths = false, vorticity = false, loads = false, noSlipBodies = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);
 /// An upper bound, from the scene alone.

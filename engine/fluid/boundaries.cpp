@@ -16,6 +16,7 @@
 #include "shape/thin_parts.hpp"
 #include "sph/half_space.hpp"
 #include "sph/mesh_field.hpp"
+#include "sph/no_slip.hpp"
 #include "sph/solid_density.hpp"
 
 namespace rill {
@@ -175,6 +176,7 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
     record.radius = f(radiusAbout(solid.shape, {0, 0, 0}));
     record.friction = f(solid.friction);
     record.restitution = f(solid.restitution);
+    record.noSlip = sticks(scene, solid) ? 1 : 0;
     std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);
     if (solid.driven > 0) {
       record.driven = 1;
@@ -230,6 +232,12 @@ void setWalls(const Scene& scene, const Double3& origin, FluidParams& p) {
     if (*low[a] > -kNoWall && *high[a] < kNoWall) margin = std::min(margin, 0.5 * (scene.domain->max[a] - scene.domain->min[a]));
   }
   p.margin = f(margin);
+}
+
+void addNoSlipTable(const SmoothingKernel& kernel, FluidSetup& setup) {
+  std::vector<float> table;
+  for (const float q : makeNoSlipTable(kernel)) table.insert(table.end(), {q, 0});
+  appendTable(setup.tables, table, setup.params.noSlipTable);
 }
 
 void addHalfSpaceTable(const SmoothingKernel& kernel, FluidSetup& setup) {

@@ -26,5 +26,7 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
 void setWalls(const Scene& scene, const Double3& origin, FluidParams& p);
 /// The density that a half-space displaces, which boxes are made of.
 void addHalfSpaceTable(const SmoothingKernel& kernel, FluidSetup& setup);
+/// How strongly viscous fluid sticks to solids.
+void addNoSlipTable(const SmoothingKernel& kernel, FluidSetup& setup);
 
 }  // namespace rill

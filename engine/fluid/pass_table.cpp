@@ -10,6 +10,9 @@ bool loads(const FluidSetup& s) { return s.loads; }
 bool probesPressure(const FluidSetup& s) { return !s.pressureProbes.empty(); }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
 bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
+bool noSlip(const FluidSetup& s) { return s.noSlipSolids; }
+bool noSlipBodies(const FluidSetup& s) { return s.noSlipBodies; }
+bool noSlipLoads(const FluidSetup& s) { return s.noSlipSolids && s.loads; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
@@ -20,8 +23,9 @@ bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) &&
 
 constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"}, kBodies{bodies, "no bodies"},
     kLoads{loads, "no loads asked for, and no bodies"}, kProbesPressure{probesPressure, "no probes of pressure"},
-    kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"}, kSwirls{swirls, "vorticity is 0"},
-    kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
+    kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
+    kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"},
+    kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
 
 using P = FluidPass;
 using E = Extent;
@@ -61,6 +65,10 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Pressure, "pressure at probes", "fluid/pressure", E::PressureProbes, {S::Correct}, kProbesPressure},
 
     {P::Viscosity, "viscosity", "fluid/viscosity", E::Gather, kEnd, kViscous},
+    {P::NoSlipSums, "no-slip sums of bodies", "fluid/no_slip_sums", E::NearSolids, kEnd, {noSlipBodies}},
+    {P::NoSlipBodies, "no slip of bodies", "fluid/no_slip_bodies", E::Bodies, kEnd, {noSlipBodies}},
+    {P::NoSlip, "no slip at solids", "fluid/no_slip", E::NearSolids, kEnd, kNoSlip},
+    {P::NoSlipLoads, "no-slip loads", "fluid/no_slip_loads", E::One, kEnd, {noSlipLoads}},
     {P::CopyVelocities, "copy velocities", "fluid/copy_velocity", E::Particles, kEnd, {copies}},
     {P::VelocityNoise, "velocity noise", "fluid/velocity_noise", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::NoiseDamping, "noise damping", "fluid/noise_damping", E::Gather, {S::NoiseDamping}, kNoisy},

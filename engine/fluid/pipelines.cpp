@@ -43,6 +43,8 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"CULL_SOLIDS", p.solidCount > kFewSolids},
           {"LOADS", setup.loads},
           {"BODIES", !setup.bodies.empty()},
+          {"NO_SLIP_WALLS", setup.noSlipWalls},
+          {"NO_SLIP_SOLIDS", setup.noSlipSolids},
           {"FORCES", hasForces(setup)},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

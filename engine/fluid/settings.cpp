@@ -86,6 +86,22 @@ void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSet
                                                                                  : "fluid.viscosity is larger";
 }
 
+// Nothing of it exists where it has no effect.
+void setNoSlip(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
+  const bool walls = hasWalls(scene) && !scene.domain->slip;
+  setup.noSlipWalls = walls && scene.fluid.viscosity > 0;
+  for (const Solid& solid : scene.solids) {
+    setup.noSlipSolids |= sticks(scene, solid);
+    setup.noSlipBodies |= sticks(scene, solid) && solid.body;
+  }
+  if (setup.noSlipSolids) addNoSlipTable(kernel, setup);
+  if (scene.fluid.viscosity > 0) return;
+  const auto found = std::ranges::find(scene.solids, false, &Solid::slip);
+  if (!walls && found == scene.solids.end()) return;
+  const std::string key = walls ? "domain" : elementPath("solids", static_cast<size_t>(found - scene.solids.begin()));
+  setup.warnings.push_back(key + ".slip: false has no effect: fluid.viscosity is 0, expected more (Pa s)");
+}
+
 // The end of a warning about a setting beyond its bound.
 std::string usedInstead(double found, double used) { return roundedNumber(found) + "; " + roundedNumber(used) + " is used"; }
 
@@ -266,6 +282,8 @@ double meltingTime(const Scene& scene) {
   return held && gravity > 0 ? kMeltingTime * std::sqrt(scene.fluid.spacing / gravity) : 0;
 }
 
+bool sticks(const Scene& scene, const Solid& solid) { return !solid.slip && scene.fluid.viscosity > 0; }
+
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
 
 bool measuresLoads(const Scene& scene) {
@@ -348,6 +366,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   addPressureProbes(scene, kernel, origin, setup);
   p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
   setViscosity(scene, kernel, setup);
+  setNoSlip(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);
   setGravity(scene, setup);
   setSpeeds(scene, start, p);

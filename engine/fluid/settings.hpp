@@ -65,6 +65,9 @@ struct FluidSetup {
   double head = 0;                        ///< m^2/s^2, of the start's column
   double longestStep = 0, firstStep = 0;  ///< s, of the start
   bool walls = false;                     ///< the domain has a wall
+  bool noSlipWalls = false;               ///< fluid sticks to them
+  bool noSlipSolids = false;              ///< and to some solid
+  bool noSlipBodies = false;              ///< one of which is a rigid body
   bool held = false;                      ///< walls or solids can hold the fluid up
   bool thin = false;                      ///< walls that face each other can both be near a particle
   bool movingSolids = false;              ///< by keyframes, by the host, or bodies
@@ -84,6 +87,9 @@ struct StartFigures {
 
 /// BadInput where the scene cannot run.
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start);
+
+/// Whether viscous fluid sticks to a solid.
+bool sticks(const Scene& scene, const Solid& solid);
 
 /// Whether a side of the domain is closed.
 bool hasWalls(const Scene& scene);

@@ -69,14 +69,24 @@ void FluidImpl::declareForces(Graph& graph, bool first) {
 // Sweeps of XSPH, there and back between the velocities and a copy.
 void FluidImpl::declareViscosity(Graph& graph) {
   using enum FluidArray;
+  const float share = 1.0f / float(setup.viscositySweeps);
   for (uint32_t sweep = 0; sweep < setup.viscositySweeps; ++sweep) {
     alias(SweepFrom, sweep % 2 == 0 ? Velocity : Smoothed);
     alias(SweepTo, sweep % 2 == 0 ? Smoothed : Velocity);
-    declare(graph, FluidPass::Viscosity, Start::Correct, SweepPush{0, 0, 1.0f / float(setup.viscositySweeps)});
+    declare(graph, FluidPass::Viscosity, Start::Correct, SweepPush{0, 0, share});
+    declareNoSlip(graph, {share, sweep + 1 == setup.viscositySweeps});
   }
   if (!exists(FluidPass::CopyVelocities, setup)) return;
   alias(SweepFrom, Smoothed);
   declare(graph, FluidPass::CopyVelocities, Start::Correct);
+}
+
+// After a sweep, on its result. Bodies first get the velocity that they will have, so that the fluid sticks to that.
+void FluidImpl::declareNoSlip(Graph& graph, const NoSlipPush& push) {
+  declare(graph, FluidPass::NoSlipSums, Start::Correct, push);
+  declare(graph, FluidPass::NoSlipBodies, Start::Correct);
+  declare(graph, FluidPass::NoSlip, Start::Correct, push);
+  declare(graph, FluidPass::NoSlipLoads, Start::Correct, push);
 }
 
 void FluidImpl::declareNoiseDamping(Graph& graph) {

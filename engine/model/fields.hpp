@@ -29,7 +29,9 @@ struct Table<Domain> {
       Field{Info{.key = "open",
                  .help = "sides without a wall; particles that leave through one stay in the simulation and are counted as outside",
                  .words = kSideWords},
-            &Domain::open}};
+            &Domain::open},
+      Field{Info{.key = "slip", .help = "false: fluid with a viscosity above 0 sticks to the walls (no-slip)", .since = "0.2"},
+            &Domain::slip}};
 };
 
 template <>
@@ -160,6 +162,8 @@ struct Table<Solid> {
                  .range = between(0, 1),
                  .help = "coefficient of restitution: normal speed after an impact over normal speed before it"},
             &Solid::restitution},
+      Field{Info{.key = "slip", .help = "false: fluid with a viscosity above 0 sticks to the solid (no-slip)", .since = "0.2"},
+            &Solid::slip},
       Field{Info{.key = "body", .help = "makes it a rigid body; not with motion, and not of a two-sided mesh", .since = "0.2"},
             &Solid::body},
       Field{Info{.key = "motion", .help = "keyframes in order of time; linear between them, constant before the first and after the last"},

@@ -48,6 +48,7 @@ class KeyCollector {
 
  private:
   void add(const model::Info&, std::string key, double value) { keys_.emplace_back(std::move(key), shortestNumber(value)); }
+  void add(const model::Info&, std::string key, bool value) { keys_.emplace_back(std::move(key), value ? "true" : "false"); }
   void add(const model::Info&, std::string key, uint32_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
   void add(const model::Info&, std::string key, uint64_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
   void add(const model::Info&, std::string key, const std::optional<double>& value) {

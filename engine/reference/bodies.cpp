@@ -1,6 +1,7 @@
 #include "reference/bodies.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -306,6 +307,62 @@ void Bodies::end(double dt) {
   findFastest();
   lastStep_ = dt;
   advanced_ = true;
+}
+
+Pose Bodies::stuckPose(size_t solid, std::span<const Held> particles) const {
+  constexpr size_t kFreedoms = 6;
+  const RigidBody& body = bodies_[index(solid)];
+  const glm::dmat3 inertia = inertiaAt(body.inertia, body.state.rotation);
+  // A point at r from the center of mass moves by turns[a] x r, or along an axis, for a unit of each degree of freedom.
+  std::array<std::array<double, kFreedoms + 1>, kFreedoms> rows{};
+  for (int a = 0; a < 3; ++a) {
+    rows[static_cast<size_t>(a)][static_cast<size_t>(a)] = body.mass;
+    for (int b = 0; b < 3; ++b) rows[static_cast<size_t>(3 + a)][static_cast<size_t>(3 + b)] = inertia[a][b];
+  }
+  for (const Held& p : particles) {
+    if (p.solid != solid) continue;
+    std::array<glm::dvec3, kFreedoms + 1> moved;
+    for (int a = 0; a < 3; ++a) {
+      glm::dvec3 axis(0);
+      axis[a] = 1;
+      moved[static_cast<size_t>(a)] = axis;
+      moved[static_cast<size_t>(3 + a)] = glm::cross(axis, p.at - body.state.center);
+    }
+    moved[kFreedoms] = p.relative;
+    for (size_t a = 0; a < kFreedoms; ++a)
+      for (size_t b = 0; b <= kFreedoms; ++b) rows[a][b] += p.mass * glm::dot(moved[a], moved[b]);
+  }
+  for (size_t a = 0; a < kFreedoms; ++a) {
+    if ((body.locked >> a & 1U) == 0) continue;
+    for (size_t b = 0; b <= kFreedoms; ++b) rows[a][b] = b == a ? 1 : 0;
+    for (size_t b = 0; b < kFreedoms; ++b) rows[b][a] = b == a ? 1 : 0;
+  }
+  for (size_t a = 0; a < kFreedoms; ++a)  // positive definite: no pivot is 0
+    for (size_t b = 0; b < kFreedoms; ++b) {
+      if (a == b) continue;
+      const double factor = rows[b][a] / rows[a][a];
+      for (size_t c = 0; c <= kFreedoms; ++c) rows[b][c] -= factor * rows[a][c];
+    }
+  BodyMotion changed = body.state;
+  for (int a = 0; a < 3; ++a) {
+    const auto n = static_cast<size_t>(a);
+    changed.velocity[a] += rows[n][kFreedoms] / rows[n][n];
+    changed.angularVelocity[a] += rows[n + 3][kFreedoms] / rows[n + 3][n + 3];
+  }
+  return poseOf(body, changed);
+}
+
+void Bodies::accelerate(std::span<const Impulse> impulses) {
+  const double before = fastest_;
+  for (RigidBody& body : bodies_) {
+    if (body.held) continue;
+    const Impulse impulse = aboutMass(body, impulses[body.solid]);
+    body.state.velocity += freeAxes(body.locked) * impulse.linear / body.mass;
+    body.state.angularVelocity += inverseInertia(inertiaAt(body.inertia, body.state.rotation), body.locked) * impulse.angular;
+    body.predicted = body.state;
+  }
+  findFastest();
+  fastest_ = std::max(fastest_, before);
 }
 
 void Bodies::forgetPrediction() {

@@ -63,6 +63,17 @@ class Bodies {
   void react(std::span<const Impulse> solve, double dt);
   /// Predictions become the motions.
   void end(double dt);
+  /// A particle that sticks to a solid.
+  struct Held {
+    size_t solid = 0;
+    double mass = 0;                  ///< kg, times b of docs/notes/slip.md
+    glm::dvec3 at = {0, 0, 0};        ///< m
+    glm::dvec3 relative = {0, 0, 0};  ///< m/s, velocity relative to the solid
+  };
+  /// After end(): a body's pose, with the velocity at which the impulses of the particles that stick to it are those that gave it that.
+  Pose stuckPose(size_t solid, std::span<const Held> particles) const;
+  /// After end(): changes velocities by impulses on all solids.
+  void accelerate(std::span<const Impulse> impulses);
   void forgetPrediction();  ///< after an iteration for the initial pressure
 
   /// Root of |grad B|^2 w: w is the mobility of a body along the gradient at x, 1/kg. 0 for other solids.

@@ -31,6 +31,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.tensilePower = scene.fluid.tensile_power;
   s.viscosity = scene.fluid.viscosity;
   s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
+  s.noSlipWalls = scene.domain && !scene.domain->slip;
   s.meltingTime = meltingTime(scene);
   s.viscosityAtRest = setup.artificialViscosity;
   s.substepsPerBlock = static_cast<int>(setup.substepsPerBlock);

@@ -47,7 +47,10 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
   for (int a = 0; a < 3; ++a) walls_.margin = std::min(walls_.margin, (settings.hi[a] - settings.lo[a]) / 2);
-  if (!settings.solids.empty()) halfSpace_ = makeHalfSpaceTable(kernel_);
+  if (!settings.solids.empty()) {
+    halfSpace_ = makeHalfSpaceTable(kernel_);
+    noSlipTable_ = makeNoSlipTable(kernel_);
+  }
   for (const Solid& solid : settings.solids) {
     const auto* sphere = std::get_if<SphereShape>(&solid.shape);
     const auto* mesh = std::get_if<MeshShape>(&solid.shape);
@@ -310,7 +313,10 @@ double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
 
 void ReferenceSolver::viscosity(double dt) {
   const double c = xsphCoefficient(settings.viscosity, dt) / settings.viscositySweeps;
-  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) add(c, meanDifference(state.velocity));
+  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) {
+    add(c, meanDifference(state.velocity, settings.noSlipWalls));
+    if (std::ranges::find(settings.solids, false, &Solid::slip) != settings.solids.end()) noSlip(c, dt);
+  }
 }
 
 void ReferenceSolver::dampNoise(double dt) {
@@ -318,10 +324,13 @@ void ReferenceSolver::dampNoise(double dt) {
   add(-c, meanDifference(meanDifference(state.velocity)));
 }
 
-std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v) const {
+std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v, bool reversed) const {
   std::vector<glm::dvec3> difference(size(), glm::dvec3(0));
   for (size_t i = 0; i < size(); ++i)
-    for (const Pair& pair : pairs(i)) difference[i] += pair.value * (pair.sign * v[pair.j] - v[i]);
+    for (const Pair& pair : pairs(i)) {
+      const glm::dvec3 factor = reversed ? glm::dvec3(pair.sign.x * pair.sign.y * pair.sign.z) : pair.sign;
+      difference[i] += pair.value * (factor * v[pair.j] - v[i]);
+    }
   return difference;
 }
 

@@ -36,6 +36,7 @@
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
 #include "sph/mesh_field.hpp"
+#include "sph/no_slip.hpp"
 #include "sph/solid_density.hpp"
 #include "sph/solid_scale.hpp"
 
@@ -88,6 +89,7 @@ struct ReferenceSettings {
 
   double viscosity = 0;                                         ///< mu, Pa s
   int viscositySweeps = 1;                                      ///< n: XSPH sweeps per substep, each with c/n < 1
+  bool noSlipWalls = false;                                     ///< viscous fluid sticks to the walls
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
   double drag = 0;                                              ///< 1/s
   double separationSpeed = 0;                                   ///< m/s, at which bodies that overlap come apart, at most
@@ -143,7 +145,7 @@ class ReferenceSolver {
   void multipliers(bool firstIteration);    ///< lambda, dlambda; w in the first iteration
   void correction(double dt, double push);  ///< x*; `push`: artificial pressure times D_rest
   void velocities(double dt);               ///< v, x; adds dt to time()
-  void viscosity(double dt);                ///< v: v_i += c/n sum_j K_ij (v_j - v_i), n times; conserves momentum
+  void viscosity(double dt);                ///< v: v_i += c/n sum_j K_ij (v_j - v_i), then noSlip(), n times
   void dampNoise(double dt);  ///< v: v -= c L(L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest, at most kMaxNoiseDamping
   /// Vorticity confinement (Macklin and Mueller 2013, eq. 15 and 16, with a dimensionless coefficient):
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
@@ -208,15 +210,26 @@ class ReferenceSolver {
   void predictPositions(double dt, bool atRest);
   void deactivate(size_t i);
   void updateRestFactor();
-  double densityScale() const;                                                     ///< factor on the fluid's part of the density
-  std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)
-  void add(double factor, const std::vector<glm::dvec3>& change);                  ///< to the velocities
+  double densityScale() const;  ///< factor on the fluid's part of the density
+  /// sum_j K_ij (v_j - v_i). `reversed`: of images -v_j, else mirrored.
+  std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v, bool reversed = false) const;
+  /// How a solid holds a particle in a sweep of viscosity; see docs/notes/slip.md.
+  struct Adhesion {
+    size_t particle, solid;
+    double strength;     ///< a_k
+    glm::dvec3 at;       ///< m, the particle's image
+    glm::dvec3 reverse;  ///< factors of its velocity there
+  };
+  std::vector<Adhesion> adhesions(std::span<const Pose> poses, double c) const;  ///< by particle
+  void noSlip(double c, double dt);                                              ///< v, bodies: after a sweep of coefficient c
+  void add(double factor, const std::vector<glm::dvec3>& change);                ///< to the velocities
 
   SmoothingKernel kernel_;
   double liquidScale_;
   ArtificialPressure artificial_;
   Walls walls_;
   HalfSpaceTable halfSpace_;
+  std::vector<float> noSlipTable_;
   std::vector<SphereTable> sphereTables_;             ///< one per solid; empty but for spheres
   std::vector<std::optional<MeshField>> meshFields_;  ///< one per solid; of meshes
   double time_ = 0;

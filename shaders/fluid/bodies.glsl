@@ -21,16 +21,19 @@ mat3 inertiaAt(BodyRecord b, vec4 q) {
   return r * local * transpose(r);
 }
 
-// Its inverse without the rotations that are locked. Over its size first, so that no product leaves the range of floats.
-mat3 inverseInertiaAt(BodyRecord b, vec4 q) {
-  vec3 turns = freeTurns(b.locked);
-  float size = b.inertiaXX + b.inertiaYY + b.inertiaZZ;
-  mat3 all = inertiaAt(b, q) / size, kept;
+// The inverse of an inertia without the rotations that are locked. Over `size` first, so that no product leaves the range of floats.
+mat3 inverseFree(mat3 inertia, float size, uint locked) {
+  vec3 turns = freeTurns(locked);
+  mat3 all = inertia / size, kept;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) kept[i][j] = turns[i] * turns[j] * all[i][j] + (i == j ? 1.0 - turns[i] : 0.0);
   mat3 inverted = inverse(kept);
   for (int i = 0; i < 3; ++i) inverted[i] *= turns[i] * turns / size;
   return inverted;
+}
+
+mat3 inverseInertiaAt(BodyRecord b, vec4 q) {
+  return inverseFree(inertiaAt(b, q), b.inertiaXX + b.inertiaYY + b.inertiaZZ, b.locked);
 }
 
 vec3 inverseMass(BodyRecord b) { return freeAxes(b.locked) / b.mass; }

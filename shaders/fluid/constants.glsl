@@ -20,5 +20,7 @@ layout(constant_id = 16) const bool CULL_SOLIDS = false;  // many solids: each w
 layout(constant_id = 17) const bool LOADS = false;     // loads on solids are measured
 layout(constant_id = 18) const bool BODIES = false;    // some solids are rigid bodies
 layout(constant_id = 19) const bool COUNTS = false;    // contacts of bodies are counted, not solved
+layout(constant_id = 20) const bool NO_SLIP_WALLS = false;   // fluid sticks to the domain's walls
+layout(constant_id = 21) const bool NO_SLIP_SOLIDS = false;  // fluid sticks to some solids
 #define LIST_OVERSIZED_ID 13
 #endif

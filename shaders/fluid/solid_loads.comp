@@ -8,29 +8,7 @@ layout(push_constant) uniform Push { LoadPush push; };
 layout(std430, binding = 2) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 3) buffer SolidLoadBlock { SolidLoadRecord solidLoads[]; };
 layout(std430, binding = 4) readonly buffer SolidBlock { SolidRecord solids[]; };
-#include "fluid/solid_sums.glsl"
-
-// N s^2 or N m s^2: the opposite of what particles got.
-float reaction(uint component, uint first) {
-  return -params.particleMass * toDisplacement(component, takeSum(first + 2u * component));
-}
-
-void addImpulse(uint n, uint c, float impulse) {
-  precise float high = solidLoads[n].impulseHigh[c], low = solidLoads[n].impulseLow[c] + impulse;
-  precise float sum = high + low, rest = (high - sum) + low;
-  solidLoads[n].impulseHigh[c] = sum;
-  solidLoads[n].impulseLow[c] = rest;
-  solidLoads[n].advance[c] += impulse;
-}
-
-void endAdvance(uint n) {
-  if (solidLoads[n].advanceTime <= 0.0) return;
-  for (uint c = 0u; c < kLoadComponents; ++c) {
-    solidLoads[n].mean[c] = solidLoads[n].advance[c] / solidLoads[n].advanceTime;
-    solidLoads[n].advance[c] = 0.0;
-  }
-  solidLoads[n].advanceTime = 0.0;
-}
+#include "fluid/solid_impulses.glsl"
 
 void main() {
   bool advances = control.phase == kPhaseAdvancing, last = push.ends != 0u, ends = last && control.timeLeft <= 0.0;
@@ -47,6 +25,6 @@ void main() {
       float warm = reaction(c, words + kWarmSums);
       solidLoads[n].warm[c] = control.warmStep > 0.0 ? warm / (control.warmStep * control.warmStep) : 0.0;
     }
-    if (advances && ends) endAdvance(n);
+    if (advances && ends && !NO_SLIP_SOLIDS) endAdvance(n);  // else what follows in the substep ends it
   }
 }

@@ -10,6 +10,7 @@ layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { SweepPush push; };
 READ_FLOAT4(8, sweepFrom)
 layout(std430, binding = 9) writeonly buffer SweepToBlock { vec4 sweepTo[]; };
+#define REVERSES NO_SLIP_WALLS
 #include "fluid/xsph.glsl"
 
 void main() {

@@ -15,6 +15,11 @@ RILL_CONST uint kSolveSums = 0u;
 RILL_CONST uint kWarmSums = 2u * kLoadComponents;
 RILL_CONST uint kStiffnessSum = 4u * kLoadComponents;
 RILL_CONST uint kSolidSumWords = 4u * kLoadComponents + 2u;
+// Behind the sums of all solids, for each body, if fluid sticks to one: sums over the particles near it that
+// shaders/fluid/no_slip_bodies.comp needs, with b, r from the center of mass in loadLever, and the velocity w relative to the body, times
+// the step, in spacings: b, b r, b r r^T (xx yy zz yz zx xy), b w, b r x w. All in kDisplacementUnits.
+RILL_CONST uint kNoSlipComponents = 16u;
+RILL_CONST uint kNoSlipSumWords = 2u * kNoSlipComponents;
 RILL_CONST float kDisplacementUnits = 1.0f / 1099511627776.0f;  // 2^-40
 RILL_CONST float kMaxDisplacement = 8.0f;                       // spacings: what one particle adds, at most
 

@@ -43,6 +43,7 @@ struct SolidRecord {
   uint tableOffset;            // sphere: entries into the table buffer
   uint tableNodes;
   float tableFirst;            // sphere: signed distance of the table's first node, m
+  uint noSlip;                 // 1: viscous fluid sticks to it
 };
 
 RILL_CONST uint kNoBody = 0xffffffffu;

@@ -31,6 +31,7 @@ struct Domain {
   Double3 min = {0, 0, 0};  ///< m
   Double3 max = {1, 1, 1};  ///< m
   SideMask open = 0;        ///< sides without a wall; particles that leave stay in the simulation and are counted as outside
+  bool slip = true;         ///< false: viscous fluid sticks to the walls
 };
 
 /// The smoothing kernel.
@@ -142,6 +143,7 @@ struct Solid {
   Double3 translation = {0, 0, 0};     ///< m
   double friction = 0;                 ///< coefficient of friction (Coulomb), >= 0
   double restitution = 0;              ///< coefficient of restitution, 0 .. 1
+  bool slip = true;                    ///< false: viscous fluid sticks to it
   std::vector<Keyframe> motion = {};
   std::optional<Body> body = {};  ///< a rigid body; without motion, not driven, not a two-sided mesh
   double driven = 0;      ///< largest speed of its points, m/s, where the host moves it (FluidStep::targets); 0: not moved by the host

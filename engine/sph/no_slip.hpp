@@ -1,0 +1,22 @@
+#pragma once
+// How strongly viscous fluid sticks to a solid. See docs/notes/slip.md.
+#include <vector>
+
+#include "sph/half_space.hpp"
+
+namespace rill {
+
+/// Q(s), m, at signed distance s (m). Times |grad B| of a solid it is the coefficient of a particle's velocity relative to the solid, in
+/// units of XSPH's c: of a plane wall what ghost layers add to the sum of XSPH whose velocity goes on linearly from the particle's, through
+/// the wall's at the wall,
+///   Q(s) |F'(s)| = sum_ghosts K_k b_k / s,  b_k = s + d/2 + k d from the particle.
+/// For s < d/2 it is that at d/2, the smallest distance of centers.
+double noSlipLength(const SmoothingKernel& kernel, double s);
+
+/// At the nodes of HalfSpaceTable.
+std::vector<float> makeNoSlipTable(const SmoothingKernel& kernel);
+
+/// Its value by linear interpolation, as in the shaders; `step`: of the nodes, m.
+double sampleNoSlip(const std::vector<float>& table, double step, double s);
+
+}  // namespace rill

@@ -1,0 +1,47 @@
+#version 460
+// Fluid sticks to solids: after a sweep of viscosity, an implicit step toward their velocity. LOADS: its reaction.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "shared/arrays.glsl"
+READ_UINT(7, meshWord)
+#define MESH_WORDS
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
+layout(local_size_x = kFluidGroup) in;
+
+layout(push_constant) uniform Push { NoSlipPush push; };
+READ_UINT4(2, work)        // the prediction that XSPH is of
+READ_UINT4(3, nearSolids)  // NearSolidRecord
+layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
+READ_FLOAT4(5, table)
+layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 8) buffer SweepToBlock { vec4 sweepTo[]; };
+layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
+#include "fluid/no_slip.glsl"
+#include "fluid/solid_sums.glsl"
+
+void addReactions(uvec3 near, vec3 x, vec3 v) {
+  Images images = imagesNear(x, params.support);
+  bool more = true;
+  LOOP_WHILE (more) {
+    vec3 signs, image = imageOf(nextImage(images), x, signs);
+    for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+      vec3 toward = velocityAt(solids[k].pose, image) - imageVelocity(signs, v);
+      addToSolid(k, control.step * adhesion(k, image) * toward, image);
+    }
+    more = advance(images);
+  } LOOP_END(more);
+}
+
+void main() {
+  uint n = flatInvocation();
+  if (n >= sums.nearSolids) return;
+  uvec4 near = nearSolidsAt(n);
+  vec3 x = uintBitsToFloat(workAt(near.x).xyz);
+  if (!isActive(x)) return;
+  Adhesion a = adhesionAt(near.yzw, x);
+  if (!(a.all > 0.0)) return;
+  vec3 v = (sweepTo[near.x].xyz + a.pull) / (1.0 + a.all);
+  sweepTo[near.x].xyz = v;
+  if (LOADS) addReactions(near.yzw, x, v);
+}

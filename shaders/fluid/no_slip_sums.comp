@@ -1,0 +1,60 @@
+#version 460
+// Sums of the particles that stick to each body, from which no_slip_bodies.comp finds the velocity that it will have.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "shared/arrays.glsl"
+READ_UINT(7, meshWord)
+#define MESH_WORDS
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
+#include "shared/body_records.h"
+layout(local_size_x = kFluidGroup) in;
+
+layout(push_constant) uniform Push { NoSlipPush push; };
+READ_UINT4(2, work)
+READ_UINT4(3, nearSolids)  // NearSolidRecord
+layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
+READ_FLOAT4(5, table)
+layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 8) readonly buffer SweepToBlock { vec4 sweepTo[]; };
+layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
+layout(std430, binding = 10) readonly buffer BodyBlock { BodyRecord bodies[]; };
+#include "fluid/no_slip.glsl"
+#include "fluid/solid_sums.glsl"
+
+// `b`: what the particle gives solid k of its velocity w relative to it, over its mass.
+void addToBody(uint k, float b, vec3 x, vec3 w) {
+  uint body = solids[k].body;
+  vec3 r = (x - centerOf(bodies[body].state)) / params.loadLever, moved = w * (control.step / params.spacing), turn = cross(r, moved);
+  float values[kNoSlipComponents] = float[](1.0, r.x, r.y, r.z, r.x * r.x, r.y * r.y, r.z * r.z, r.y * r.z, r.z * r.x, r.x * r.y, moved.x,
+                                            moved.y, moved.z, turn.x, turn.y, turn.z);
+  for (uint c = 0u; c < kNoSlipComponents; ++c) {
+    int high;
+    uint low;
+    split(b * values[c] / kDisplacementUnits, high, low);
+    addWide(params.solidCount * kSolidSumWords + body * kNoSlipSumWords + 2u * c, high, low);
+  }
+}
+
+void main() {
+  uint n = flatInvocation();
+  if (n >= sums.nearSolids) return;
+  uvec4 near = nearSolidsAt(n);
+  vec3 x = uintBitsToFloat(workAt(near.x).xyz), v = sweepTo[near.x].xyz;
+  if (!isActive(x)) return;
+  Adhesion all = adhesionAt(near.yzw, x);
+  if (!(all.all > 0.0)) return;
+  Images images = imagesNear(x, params.support);
+  bool more = true;
+  LOOP_WHILE (more) {
+    vec3 signs, image = imageOf(nextImage(images), x, signs);
+    for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
+      if (solids[k].body == kNoBody || bodies[solids[k].body].held != 0u) continue;
+      float a = adhesion(k, image), others = 1.0 + all.all - a;
+      if (!(a > 0.0)) continue;
+      vec3 own = velocityAt(solids[k].pose, image), free = (v + all.pull - a * imageVelocity(signs, own)) / others;
+      addToBody(k, a * others / (others + a), image, imageVelocity(signs, free) - own);
+    }
+    more = advance(images);
+  } LOOP_END(more);
+}

@@ -1,0 +1,246 @@
+// Viscous fluid that sticks to walls, solids and bodies: against the reference, and against the flow between two plates.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "fluid/rig.hpp"
+#include "shape/mass.hpp"
+#include "support/meshes.hpp"
+
+namespace rill::test {
+namespace no_slip_test {
+
+using reference::vec;
+
+/// A block with noise, at walls on all sides.
+Trial noisy(double viscosity) {
+  Trial t = trial();
+  t.scene.fluid.viscosity = viscosity;
+  setWalls(t, {0.6, 0.7, 0.5});
+  t.scene.domain->slip = false;
+  t.x = block({9, 8, 8}, t.d(), {}, 0.1);
+  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  return t;
+}
+
+/// Fluid between walls around a box that is turned, a ball that moves and turns, and a mesh; it slips along the walls and the box.
+Trial crowded(double viscosity) {
+  Trial t = trial();
+  t.scene.fluid.viscosity = viscosity;
+  setWalls(t, {1.1, 1.2, 0.7});
+  Solid box = slab({0.05, 0.1, 0.1}, {0.35, 0.3, 0.4}), moving = ball({0.65, 0.3, 0.4}, 0.12);
+  box.rotation = {0, 0, std::sin(0.2), std::cos(0.2)};
+  moving.motion = {{0, {0, 0, 0}}, {0.1, {0.1, 0.05, 0}, {0, std::sin(0.2), 0, std::cos(0.2)}}};
+  Solid mesh{.shape = MeshShape{.mesh = meshOf(ballMesh(0.12, 3))}, .translation = {0.9, 0.2, 0.15}};
+  t.scene.solids = {box, moving, mesh};
+  for (Solid& solid : t.scene.solids) solid.slip = false;
+  t.loads = true;
+  addOutsideSolids(t, block({17, 10, 11}, t.d(), {0, 0, 0}, 0.02));
+  t.v.assign(t.x.size(), {1, -1.5, 0.75});
+  return t;
+}
+
+Solid body(Solid solid, double density) {
+  solid.body = Body{.density = density};
+  solid.slip = false;
+  return solid;
+}
+
+/// Bodies in a stream far from walls, without gravity: one much lighter than the fluid that sticks to it, one that is held along an axis
+/// and about another, two so near each other that particles stick to both.
+Trial stream() {
+  Trial t = trial();
+  t.scene.gravity[1] = 0;
+  t.scene.fluid.viscosity = 400;
+  Solid box = body(slab({-0.2, -0.3, -0.25}, {0.2, -0.1, 0.2}), 40);
+  box.rotation = {0, 0, std::sin(0.2), std::cos(0.2)};
+  Solid locked = body(ball({0.15, 0.25, 0.1}, 0.12), 2000);
+  locked.body->locked = 0b100001;
+  t.scene.solids = {box, locked, body(ball({-0.14, 0.25, 0.1}, 0.1), 500)};
+  addOutsideSolids(t, block({12, 14, 12}, 0.985 * t.d(), glm::dvec3(-0.4), 0.02));
+  for (const glm::dvec3& x : t.x) t.v.push_back(glm::dvec3(8, -6, 5) + 2.0 * glm::cross(glm::dvec3(1, 2, 3), x));
+  return t;
+}
+
+class NoSlipTest : public FluidTest {
+ protected:
+  /// Impulses on solids since the start, and motions of bodies, on the device and of the reference.
+  void expectReferenceMotion(const Trial& t, int substeps, double limit) {
+    Oracle oracle(t);
+    std::vector<reference::Impulse> sums(t.scene.solids.size());
+    double largest = 0;
+    for (int n = 0; n < substeps; ++n) {
+      oracle.advance(1);
+      for (size_t k = 0; k < sums.size(); ++k) {
+        sums[k].linear += oracle.solver().impulses()[k].linear;
+        sums[k].angular += oracle.solver().impulses()[k].angular;
+        largest = std::max(largest, glm::length(sums[k].linear));
+      }
+    }
+    ASSERT_GT(largest, 0);
+    for (Gather gather : kGathers) {
+      SCOPED_TRACE(nameOf(gather));
+      Trial own = t;
+      own.gather = gather;
+      auto run = start(own);
+      run->substeps(substeps);
+      ASSERT_EQ(run->fluid().solidLoads().size(), sums.size());
+      for (size_t k = 0; k < sums.size(); ++k) {
+        const SolidLoad& load = run->fluid().solidLoads()[k];
+        EXPECT_LT(glm::length(vec(load.impulse) - sums[k].linear), limit * largest) << k;
+        EXPECT_LT(glm::length(vec(load.angularImpulse) - sums[k].angular), limit * 0.2 * largest) << k;
+        for (int a = 0; a < 3; ++a) EXPECT_NEAR(load.force[a] * substeps * t.step, load.impulse[a], 1e-5 * largest) << "one advance";
+      }
+      for (const BodyMotion& m : run->fluid().bodies()) {
+        const reference::BodyMotion& exact = oracle.solver().bodies().motion(m.solid);
+        EXPECT_LT(glm::length(vec(m.velocity) - exact.velocity) * t.step, limit * t.d()) << m.solid;
+        EXPECT_LT(glm::length(vec(m.angularVelocity) - exact.angularVelocity) * 0.2 * t.step, limit * t.d()) << m.solid;
+      }
+    }
+  }
+};
+
+TEST_F(NoSlipTest, WallsMatchReference) {
+  expectEqual(noisy(20), 1, 1e-4, 1e-4);
+  expectEqual(noisy(20), 10, 4e-3, 4e-3, 0.01);
+  expectEqual(noisy(2500), 3, 1e-3, 1e-3);
+}
+
+TEST_F(NoSlipTest, SolidsMatchReference) {
+  expectEqual(crowded(20), 3, 2e-3, 2e-3);
+  Trial t = crowded(2500);  // several sweeps
+  t.scene.domain->slip = false;
+  t.scene.solids[0].slip = true;
+  expectEqual(t, 3, 2e-3, 2e-3);
+}
+
+TEST_F(NoSlipTest, LoadsMatchReference) { expectReferenceMotion(crowded(200), 3, 5e-3); }
+
+TEST_F(NoSlipTest, BodiesMatchReference) {
+  Trial t = stream();
+  expectReferenceMotion(t, 5, 5e-3);
+  t.scene.fluid.viscosity = 3000;  // several sweeps
+  expectReferenceMotion(t, 3, 5e-3);
+}
+
+TEST_F(NoSlipTest, ConservesMomentumWithBodies) {
+  Trial t = stream();
+  t.scene.solids[1].body->locked = 0;
+  const double particle = Oracle(t).solver().mass();
+  auto run = start(t);
+  const auto momentum = [&](bool ofBodies) {
+    glm::dvec3 sum = particle * run->snapshot().velocitySum();
+    if (ofBodies)
+      for (const BodyMotion& m : run->fluid().bodies()) sum += massOf(t.scene.solids[m.solid]).mass * vec(m.velocity);
+    return sum;
+  };
+  const glm::dvec3 before = momentum(true), fluid = momentum(false);
+  run->substeps(30);
+  EXPECT_GT(glm::length(momentum(false) - fluid), 10) << "N s";
+  EXPECT_LT(glm::length(momentum(true) - before), 1e-3 * glm::length(momentum(false) - fluid));
+}
+
+// A body with a hundredth of the fluid's density gets the fluid's velocity, and does not overshoot it.
+TEST_F(NoSlipTest, LightBodyIsCarriedAlong) {
+  Trial t = trial();
+  t.scene.gravity[1] = 0;
+  t.scene.fluid.viscosity = 3000;
+  t.scene.solids = {body(ball({0, 0, 0}, 0.15), 10)};
+  addOutsideSolids(t, block({12, 12, 12}, t.d(), glm::dvec3(-0.375)));
+  t.v.assign(t.x.size(), {3, 0, 0});
+  auto run = start(t);
+  for (int n = 0; n < 20; ++n) {
+    run->substeps(1);
+    EXPECT_LT(run->fluid().bodies()[0].velocity.x, 3.001) << n;
+  }
+  EXPECT_GT(run->fluid().bodies()[0].velocity.x, 2.9);
+}
+
+constexpr double kSpeed = 0.02, kGap = 0.5, kWidth = 0.25, kLong = 1.5;  // m/s, m
+
+/// Fluid between a floor at rest and a lid that moves, both solids.
+Trial plates(double speed = kSpeed) {
+  Trial t = trial();
+  t.scene.gravity[1] = 0;
+  t.scene.fluid.viscosity = 500;
+  setWalls(t, {kLong, kGap, kWidth}, 0b001111);
+  constexpr double kThick = 0.3;
+  t.scene.solids = {slab({0, -kThick, -kThick}, {kLong, 0, kWidth + kThick}),
+                    slab({0, kGap, -kThick}, {kLong, kGap + kThick, kWidth + kThick})};
+  for (Solid& solid : t.scene.solids) solid.slip = false;
+  t.scene.solids[1].motion = {{0, {0, 0, 0}}, {10, {10 * speed, 0, 0}}};
+  t.loads = true;
+  t.x = block({24, 8, 4}, t.d());
+  return t;
+}
+
+TEST_F(NoSlipTest, ShearsFluidBetweenPlates) {
+  const Trial t = plates();
+  auto run = start(t);
+  for (int n = 0; n < 5; ++n) run->substeps(60);
+  const Snapshot s = run->snapshot();
+  for (size_t i = 0; i < s.x.size(); ++i) {
+    if (std::abs(s.x[i].x - kLong / 2) > kGap / 2) continue;
+    EXPECT_NEAR(s.v[i].x, kSpeed * s.x[i].y / kGap, 0.02 * kSpeed) << i;
+    EXPECT_LT(std::hypot(s.v[i].y, s.v[i].z), 0.02 * kSpeed) << i;
+  }
+  const double shear = t.scene.fluid.viscosity * kSpeed / kGap * kLong * kWidth;
+  EXPECT_NEAR(run->fluid().solidLoads()[0].force.x, shear, 0.05 * shear);
+  EXPECT_NEAR(run->fluid().solidLoads()[1].force.x, -shear, 0.05 * shear);
+}
+
+TEST_F(NoSlipTest, LoadsOfPlatesEqualTheChangeOfMomentum) {
+  const Trial t = plates(20 * kSpeed);  // so fast that the rounding of positions does not show
+  auto run = start(t);
+  const glm::dvec3 before = run->snapshot().velocitySum();
+  run->substeps(40);
+  const glm::dvec3 change = Oracle(t).solver().mass() * (run->snapshot().velocitySum() - before);
+  glm::dvec3 reaction(0);
+  for (const SolidLoad& load : run->fluid().solidLoads()) reaction += vec(load.impulse);
+  EXPECT_GT(change.x, 0.1) << "N s";
+  EXPECT_NEAR(change.x + reaction.x, 0, 1e-3 * change.x);
+}
+
+// With the walls of the domain in place of the floor the flow is the same.
+TEST_F(NoSlipTest, WallsHoldFluidAsSolidsDo) {
+  Trial t = plates();
+  auto solid = start(t);
+  t.scene.solids.erase(t.scene.solids.begin());
+  t.scene.domain->open = 0b111011;
+  t.scene.domain->slip = false;
+  auto wall = start(t);
+  for (int n = 0; n < 3; ++n) solid->substeps(60), wall->substeps(60);
+  const Snapshot a = solid->snapshot(), b = wall->snapshot();
+  for (size_t i = 0; i < a.x.size(); ++i)
+    if (std::abs(a.x[i].x - kLong / 2) < kGap / 2) { EXPECT_NEAR(a.v[i].x, b.v[i].x, 0.01 * kSpeed) << i; }
+}
+
+TEST_F(NoSlipTest, WithoutViscosityHasNoEffect) {
+  Trial t = noisy(0), slipping = t;
+  slipping.scene.domain->slip = true;
+  auto run = start(t), other = start(slipping);
+  run->substeps(10);
+  other->substeps(10);
+  EXPECT_EQ(run->snapshot(), other->snapshot());
+  const std::span<const std::string> warnings = run->fluid().warnings();
+  EXPECT_EQ(std::ranges::count(warnings, "domain.slip: false has no effect: fluid.viscosity is 0, expected more (Pa s)"), 1);
+  EXPECT_EQ(other->fluid().warnings().size() + 1, warnings.size());
+}
+
+TEST_F(NoSlipTest, HandlesDegenerateInput) {
+  Trial t = stream();
+  t.scene.solids.push_back(body(ball({0.15, 0.25, 0.1}, 1e-4), 1));  // inside another, lighter than a particle
+  t.x.resize(40);
+  t.v.resize(40);
+  t.x[3] = t.x[4];
+  t.x[5] = {0.15, 0.25, 0.1};  // at the center of two balls
+  t.v[6] = {1e10, 0, 0};
+  auto run = start(t);
+  run->substeps(20);
+  EXPECT_TRUE(run->snapshot().finite());
+  for (const BodyMotion& m : run->fluid().bodies()) EXPECT_TRUE(std::isfinite(glm::length(vec(m.velocity))));
+}
+
+}  // namespace no_slip_test
+}  // namespace rill::test

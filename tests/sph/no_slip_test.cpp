@@ -1,0 +1,43 @@
+#include "sph/no_slip.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rill {
+namespace {
+
+// On the rest lattice a linear profile beside a plane gets nothing: what the fluid's neighbors add, the plane takes.
+TEST(NoSlip, KeepsALinearProfileBesideAPlane) {
+  constexpr double kD = 0.1;
+  for (const double ratio : {1.5, 2.0, 2.3, 3.0}) {
+    const SmoothingKernel kernel(KernelChoice::Wendland, ratio * kD, kD);
+    const HalfSpaceTable plane = makeHalfSpaceTable(kernel);
+    const std::vector<float> table = makeNoSlipTable(kernel);
+    for (int layer = 0; layer < 4; ++layer) {
+      const double y = (layer + 0.5) * kD;
+      double fluid = 0;
+      for (int i = -4; i <= 4; ++i)
+        for (int j = -layer; j <= 4; ++j)
+          for (int k = -4; k <= 4; ++k) fluid += kernel.value(kD * std::sqrt(i * i + j * j + k * k)) * j * kD;
+      const double wall = -plane.sample(y).slope * sampleNoSlip(table, plane.step, y) * y;
+      EXPECT_NEAR(fluid, wall, 1e-6 * kD) << ratio << " " << layer;
+    }
+  }
+}
+
+// The force of all layers is that of the viscosity that XSPH has: sum_layers of it times d is sigma^2 / 2.
+TEST(NoSlip, GivesThePlaneTheShearStress) {
+  constexpr double kD = 0.1;
+  const SmoothingKernel kernel(KernelChoice::Wendland, 2.3 * kD, kD);
+  double sum = 0;
+  for (int layer = 0; layer < 4; ++layer) {
+    const double y = (layer + 0.5) * kD;
+    sum += -halfSpace(kernel, y).slope * noSlipLength(kernel, y) * y * kD;
+  }
+  EXPECT_NEAR(sum, kernel.secondMoment() / 2, 1e-9);
+  EXPECT_EQ(sampleNoSlip(makeNoSlipTable(kernel), kD / 16, 3 * kD), 0);
+}
+
+}  // namespace
+}  // namespace rill
