@@ -155,7 +155,7 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
           .vorticity = scene.fluid.vorticity > 0,
           .loads = !scene.solids.empty(),  // a host may ask for them
-          .noSlipBodies = true};
+          .noSlipBodies = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid) && solid.body; })};
 }
 
 uint64_t arrayBytes(FluidArray array, const ArrayShape& shape) {

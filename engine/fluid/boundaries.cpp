@@ -173,7 +173,7 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
       record.body = static_cast<uint32_t>(setup.bodies.size());
       if (auto added = addBody(solid, bodyShape(solid.shape, bodyShapes, other), origin, setup); !added) return added.error();
     }
-    record.radius = f(radiusAbout(solid.shape, {0, 0, 0}));
+    record.radius = f(boundingRadius(solid.shape));
     record.friction = f(solid.friction);
     record.restitution = f(solid.restitution);
     record.noSlip = sticks(scene, solid) ? 1 : 0;

@@ -79,6 +79,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->setup.loads = !scene.solids.empty() && (desc.loads || measuresLoads(scene));
   if (impl->setup.loads) impl->solidLoads.resize(scene.solids.size());
   impl->pressures.resize(impl->setup.pressureProbes.size());
+  impl->takePressures(std::as_bytes(std::span(impl->setup.pressureProbes)));
   impl->setup.mergesPasses = desc.mergePasses.value_or(!impl->device_->isCpu);
   impl->capacity = static_cast<uint32_t>(capacity);
   impl->count = static_cast<uint32_t>(desc.snapshot ? desc.snapshot->id.size() : n);

@@ -108,7 +108,7 @@ bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
     if (target.solid >= setup.solids.size()) return invalid(name + solidOutOfRange(target.solid));
     if (!target.rotation) continue;
     const auto [x, y, z, w] = *target.rotation;
-    if (const double square = x * x + y * y + z * z + w * w; !(square > 0 && std::isfinite(square)))
+    if (const double length = std::hypot(std::hypot(x, y), std::hypot(z, w)); !(length > 0 && std::isfinite(length)))
       return invalid(name + "rotation is (" + shortestNumber(x) + ", " + shortestNumber(y) + ", " + shortestNumber(z) + ", " +
                      shortestNumber(w) + "); expected a finite quaternion x y z w of a length above 0");
   }

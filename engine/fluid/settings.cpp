@@ -9,6 +9,7 @@
 #include "fluid/boundaries.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/stability_limits.hpp"
+#include "shape/pose.hpp"
 #include "sph/artificial_pressure.hpp"
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
@@ -259,10 +260,15 @@ void setGravity(const Scene& scene, FluidSetup& setup) {
 bool holdsFluid(const Scene& scene) { return scene.solids.size() > bodyCount(scene); }
 
 void addPressureProbes(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup) {
-  const auto place = [&](double x, double from) { return static_cast<float>(std::clamp(x - from, -kLargest, kLargest)); };
-  for (const Probe& probe : scene.probes)
-    if (const auto& x = probe.pressure)
-      setup.pressureProbes.push_back({.x = place(x->x, origin.x), .y = place(x->y, origin.y), .z = place(x->z, origin.z)});
+  const auto place = [&](double x, double from) { return static_cast<float>(std::clamp(x - from, -double{kNoWall}, double{kNoWall})); };
+  const auto covers = [](const Solid& solid, const Double3& x) { return surfaceAt(solid.shape, solidPose(solid, 0), x).distance < 0; };
+  for (const Probe& probe : scene.probes) {
+    if (!probe.pressure) continue;
+    const Double3& x = *probe.pressure;
+    const bool covered = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return covers(solid, x); });
+    setup.pressureProbes.push_back(
+        {.x = place(x.x, origin.x), .y = place(x.y, origin.y), .z = place(x.z, origin.z), .covered = covered ? 1u : 0u});
+  }
   setup.params.pressureDensity = static_cast<float>(scene.fluid.density * kernel.gradientOfUnit());
   setup.params.pressureProbes = static_cast<uint32_t>(setup.pressureProbes.size());
 }

@@ -112,11 +112,23 @@ Expected<void> checkBodies(const FluidSnapshot& s) {
     std::memcpy(&body, s.bodies.data() + k * kBodyWords, sizeof body);
     if (!valid(body.state) || !valid(body.predicted) || !(body.stiffness >= 0 && body.stiffness < 1e30F))
       return wrong(elementPath("bodies", k) + " has a motion that is not valid; expected finite numbers and a unit quaternion");
+    if (!(body.mass > 1e-30F && body.mass < 1e30F)) return wrong(elementPath("bodies", k) + " has a mass that is not above 0 and finite");
   }
   for (size_t k = 0; k < s.slips.size() / kSlipWords; ++k)
     for (size_t word = 1; word < kSlipWords; ++word)
       if (!std::isfinite(std::bit_cast<float>(s.slips[k * kSlipWords + word])))
         return wrong(elementPath("slips", k) + " is not finite; expected finite numbers");
+  return {};
+}
+
+Expected<void> checkPressures(const FluidSnapshot& s) {
+  for (size_t k = 0; k < s.pressures.size() / kPressureProbeWords; ++k) {
+    const auto r = record<PressureProbeRecord>(std::span(s.pressures).subspan(k * kPressureProbeWords));
+    bool good = r.advanceTime >= 0 && r.covered <= 1;
+    for (const float number : {r.x, r.y, r.z, r.mean, r.integralHigh, r.integralLow, r.advance, r.advanceTime})
+      good &= std::isfinite(number);
+    if (!good) return wrong(elementPath("pressures", k) + " is not valid; expected finite numbers");
+  }
   return {};
 }
 
@@ -286,6 +298,7 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
     return wrong("its largest id is " + std::to_string(ids.back()) + "; expected less than " + std::to_string(kMaxIds));
   if (auto right = checkNear(snapshot, sums, shape); !right) return right;
   if (auto right = checkBodies(snapshot); !right) return right;
+  if (auto right = checkPressures(snapshot); !right) return right;
   return checkNeighbors(snapshot, sums, shape);
 }
 

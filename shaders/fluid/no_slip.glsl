@@ -13,7 +13,9 @@ vec3 imageVelocity(vec3 signs, vec3 v) { return NO_SLIP_WALLS ? signs.x * signs.
 // The coefficient of solid k at x, an image of a particle; 0 of one that slips.
 float adhesion(uint k, vec3 x) {
   if (solids[k].noSlip == 0u) return 0.0;
-  vec3 normal, gradient = shareOfImage(solids[k], x) * solidSample(solids[k], x).xyz;
+  vec3 normal, gradient = solidSample(solids[k], x).xyz;
+  if (gradient == vec3(0.0)) return 0.0;
+  gradient *= shareOfImage(solids[k], x);
   float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
   float c = params.viscosityRate * control.step * push.share;
   return c * length(gradient) * line(params.noSlipTable, params.tableNodes, distance).x;

@@ -23,7 +23,7 @@ void main() {
   for (uint c = 0u; c < kNoSlipComponents; ++c)
     s[c] = kDisplacementUnits * takeSum(params.solidCount * kSolidSumWords + n * kNoSlipSumWords + 2u * c);
   BodyRecord b = bodies[n];
-  if (!(s[0] > 0.0) || !(control.step > 0.0) || b.held != 0u) return;
+  if (!(s[0] > 0.0) || !(control.step > 0.0) || b.held != 0u || b.stopped != 0u) return;
 
   // Moments in units of the lever, so velocities of turning times it.
   float lever = params.loadLever, toSpeed = params.spacing / control.step, heavy = b.mass / params.particleMass + s[0];

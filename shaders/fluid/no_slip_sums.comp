@@ -49,7 +49,7 @@ void main() {
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
-      if (solids[k].body == kNoBody || bodies[solids[k].body].held != 0u) continue;
+      if (solids[k].body == kNoBody || bodies[solids[k].body].held != 0u || bodies[solids[k].body].stopped != 0u) continue;
       float a = adhesion(k, image), others = 1.0 + all.all - a;
       if (!(a > 0.0)) continue;
       vec3 own = velocityAt(solids[k].pose, image), free = (v + all.pull - a * imageVelocity(signs, own)) / others;

@@ -32,9 +32,9 @@ shared uint covered;
 float pressureUnit = params.pressureDensity / (control.step * control.step);  // Pa / m^2
 
 void add(inout Moments m, uint j, vec3 x) {
-  vec3 r = (uintBitsToFloat(workAt(j).xyz) - x) * params.inverseSupport;
+  vec3 place = uintBitsToFloat(workAt(j).xyz), r = (place - x) * params.inverseSupport;
   float distance = length(r);
-  if (!(distance < 1.0)) return;
+  if (!isActive(place) || distance >= 1.0) return;
   float weight = kernelShape(distance * params.support), pressure = weight * (-multiplierAt(j) * pressureUnit);
   m.weight += weight;
   m.place += weight * r;

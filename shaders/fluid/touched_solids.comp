@@ -14,6 +14,8 @@ layout(std430, binding = 4) writeonly buffer TouchedBlock { TouchedRecord touche
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
 #include "fluid/bodies.glsl"
 
+const uint kMaxNear = 4u * kMaxTouched;
+
 void main() {
   uint n = flatInvocation();
   if (n >= params.bodyCount) return;
@@ -21,8 +23,18 @@ void main() {
   bodies[n].contacts = 0u;
   vec3 middle = centerOf(bodies[n].predicted);
   float reach = bodies[n].radius + contactMargin();
+  // First by bounding spheres: CPU drivers execute all of a loop's body for every solid.
+  uint near[kMaxNear], nearCount = 0u;
   for (uint k = 0u; k < params.solidCount; ++k) {
-    if (k == own || isBeyond(centerOf(solids[k].pose), solids[k].radius, middle, reach + params.spacing)) continue;  // as in outside.glsl
+    bool beyond = isBeyond(centerOf(solids[k].pose), solids[k].radius, middle, reach + params.spacing);  // as in outside.glsl
+    if (k == own || beyond) continue;
+    if (nearCount < kMaxNear)
+      near[nearCount++] = k;
+    else
+      ++skipped;
+  }
+  for (uint m = 0u; m < nearCount; ++m) {
+    uint k = near[m];
     vec3 normal;
     if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, middle), normal) > reach) continue;
     if (count < kMaxTouched)

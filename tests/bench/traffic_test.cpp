@@ -111,8 +111,8 @@ size_t bindingNamed(std::string_view shader, std::string_view name) {
 
 TEST(ShaderAccesses, FollowSpecializationConstants) {
   const size_t multiplier = bindingNamed("fluid/density", "multiplier");
-  EXPECT_FALSE(accessesOf("fluid/density", "ITERATED", 0).bindings[multiplier].writes);
-  const BindingAccess access = accessesOf("fluid/density", "ITERATED", 1).bindings[multiplier];
+  EXPECT_FALSE(accessesOf("fluid/density", "MULTIPLIERS", 0).bindings[multiplier].writes);
+  const BindingAccess access = accessesOf("fluid/density", "MULTIPLIERS", 1).bindings[multiplier];
   EXPECT_TRUE(access.reads && access.writes);
   EXPECT_EQ(access.writeBytes, 4u);
   EXPECT_FALSE(access.readsInLoop);

@@ -231,15 +231,20 @@ TEST_F(NoSlipTest, WithoutViscosityHasNoEffect) {
 TEST_F(NoSlipTest, HandlesDegenerateInput) {
   Trial t = stream();
   t.scene.solids.push_back(body(ball({0.15, 0.25, 0.1}, 1e-4), 1));  // inside another, lighter than a particle
+  const glm::dvec3 between(0.02, 0.25, 0.1);                         // the two balls
+  std::ranges::sort(t.x, {}, [&](const glm::dvec3& x) { return glm::distance(x, between); });
   t.x.resize(40);
-  t.v.resize(40);
+  t.v.assign(40, {8, -6, 5});
   t.x[3] = t.x[4];
   t.x[5] = {0.15, 0.25, 0.1};  // at the center of two balls
   t.v[6] = {1e10, 0, 0};
   auto run = start(t);
   run->substeps(20);
   EXPECT_TRUE(run->snapshot().finite());
-  for (const BodyMotion& m : run->fluid().bodies()) EXPECT_TRUE(std::isfinite(glm::length(vec(m.velocity))));
+  for (const BodyMotion& m : run->fluid().bodies()) {
+    EXPECT_TRUE(std::isfinite(glm::length(vec(m.velocity)))) << m.solid;
+    if (m.solid == 1 || m.solid == 2) { EXPECT_GT(glm::length(vec(m.angularVelocity)), 1e-3) << "turned by fluid that sticks to it"; }
+  }
 }
 
 }  // namespace no_slip_test

@@ -1,6 +1,7 @@
 // Pressure at probes: against the reference, against hydrostatics, and at places without fluid.
 #include "reference/pressure.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -25,6 +26,7 @@ Trial tank(uint32_t iterations = 1) {
   t.scene.solids = {ball({0.5, 0.3, 0.4}, 0.12)};
   addOutsideSolids(t, block({12, 9, 11}, t.d(), {0, 0, 0}, 0.05));
   addProbes(t, {{0.2, 0.2, 0.2}, {0, 0.1, 0.3}, {0, 0, 0}, {0.3, 0.55, 0.3}, {0.3, 0.9, 0.3}, {0.5, 0.3, 0.4}, {40, -3, 1e38}});
+  addProbes(t, {{0.6, 0.1, 0.1}, {0.4, 0.12, 0.5}, {0.02, 0.3, 0.03}, {0.5, 0.13, 0.4}, {0.1, 0.4, 0.4}});
   return t;
 }
 
@@ -35,7 +37,8 @@ class PressureTest : public FluidTest {
     return {all.begin(), all.end()};
   }
 
-  void expectReferencePressures(const Trial& t, int substeps, double limit) {
+  /// Each probe's integral within `limit` of its own in the reference, where `wet` probes have one above 0.
+  void expectReferencePressures(const Trial& t, int substeps, double limit, ptrdiff_t wet) {
     Oracle oracle(t);
     const auto& probes = t.scene.probes;
     std::vector<double> now(probes.size()), integral(probes.size());
@@ -49,8 +52,9 @@ class PressureTest : public FluidTest {
       }
     };
     oracle.advance(substeps);
+    constexpr double kFloor = 1e-5;  // of the largest integral: rounding where pressures cancel
     const double largest = *std::ranges::max_element(integral);
-    ASSERT_GT(largest, 0);
+    EXPECT_EQ(std::ranges::count_if(integral, [&](double x) { return x > 1e-2 * largest; }), wet);
     for (Gather gather : kGathers) {
       SCOPED_TRACE(nameOf(gather));
       Trial own = t;
@@ -62,32 +66,42 @@ class PressureTest : public FluidTest {
       for (size_t k = 0; k < probes.size(); ++k) {
         EXPECT_EQ(found[k].covered, k == 5) << k;
         if (found[k].covered) continue;
-        EXPECT_NEAR(found[k].integral, integral[k], limit * largest) << k;
+        EXPECT_NEAR(found[k].integral, integral[k], limit * integral[k] + kFloor * largest) << k;
         EXPECT_NEAR(found[k].mean * substeps * t.step, found[k].integral, 1e-5 * largest) << "one advance";
       }
     }
   }
 };
 
-TEST_F(PressureTest, MatchesReference) { expectReferencePressures(tank(), 10, 2e-3); }
-TEST_F(PressureTest, MatchesReferenceWithIterations) { expectReferencePressures(tank(3), 10, 2e-3); }
+TEST_F(PressureTest, MatchesReference) { expectReferencePressures(tank(), 10, 2e-3, 7); }
+TEST_F(PressureTest, MatchesReferenceWithIterations) { expectReferencePressures(tank(3), 10, 2e-3, 7); }
 
 TEST_F(PressureTest, MatchesReferenceWithoutWarmStart) {
   Trial t = tank();
   t.scene.solver.warm_start = 0;
-  expectReferencePressures(t, 10, 2e-3);
+  expectReferencePressures(t, 10, 2e-3, 7);
 }
 
-TEST_F(PressureTest, MatchesReferenceForFewAndCoincidentParticles) {
+/// Four groups of particles, most at a distance of 5 mm, `together` of them at each place.
+Trial groups(int together) {
   Trial t = tank();
   t.scene.solids.clear();
-  t.x = {{0.2, 0.2, 0.2}, {0.2, 0.2, 0.2}, {0.22, 0.2, 0.2}, {0.01, 0.12, 0.3}, {0.05, 0.02, 0.03}};
-  for (int k = 0; k < 40; ++k) t.x.push_back({0.3 + 0.001 * k, 0.55, 0.3});  // on a line
-  t.scene.probes.erase(t.scene.probes.begin() + 5);
-  Trial five = t;
-  five.scene.probes.resize(5);
-  expectReferencePressures(five, 1, 2e-3);
+  t.x.clear();
+  for (int k = 0; k < 12; ++k) {
+    const double along = 0.005 * (k / together * together);
+    t.x.push_back({0.2 + along, 0.2, 0.2});
+    t.x.push_back({0.01, 0.12 + along, 0.3});
+    t.x.push_back({0.05, 0.02, 0.03 + along});
+  }
+  for (int k = 0; k < 40; ++k) t.x.push_back({0.3 + 0.001 * k, 0.55, 0.3});
+  t.scene.probes.resize(5);
+  return t;
 }
+
+TEST_F(PressureTest, MatchesReferenceForFewParticles) { expectReferencePressures(groups(1), 1, 2e-3, 4); }
+
+// Solver and reference differ in the gradients of coincident particles.
+TEST_F(PressureTest, MatchesReferenceForCoincidentParticles) { expectReferencePressures(groups(2), 1, 0.04, 4); }
 
 // Also at walls, where particles are on one side only; where they scatter: means of sixteen.
 TEST_F(PressureTest, IsHydrostaticInFluidAtRest) {

@@ -1,3 +1,5 @@
+#include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "fluid/neighbor_list.hpp"
@@ -8,9 +10,20 @@
 namespace rill::test {
 namespace {
 
+/// What the device adds to is a number.
+void requireValidReadings(const FluidSnapshot& snapshot) {
+  for (size_t at = 0; at < snapshot.pressures.size(); at += kPressureProbeWords) {
+    for (size_t word = 0; word < offsetof(PressureProbeRecord, covered) / 4; ++word)
+      RILL_REQUIRE(std::isfinite(std::bit_cast<float>(snapshot.pressures[at + word])));
+    RILL_REQUIRE(std::bit_cast<float>(snapshot.pressures[at + offsetof(PressureProbeRecord, advanceTime) / 4]) >= 0);
+  }
+}
+
 /// The host code that loads a snapshot into a fluid of this shape.
 void loadIntoFluid(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
-  if (!checkSnapshot(snapshot, shape) || !hasNeighbors(snapshot)) return;
+  if (!checkSnapshot(snapshot, shape)) return;
+  requireValidReadings(snapshot);
+  if (!hasNeighbors(snapshot)) return;
   std::vector<uint32_t> list(size_t{kListBlock} * shape.listCapacity / 2);
   layOutList(snapshot, 0, shape.capacity, list);
   FluidSnapshot back = snapshot;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "fluid/settings.hpp"
@@ -38,6 +39,9 @@ int fuzzScene(const uint8_t* data, size_t size) {
   const auto setup = makeFluidSetup(
       *scene, {.capacity = static_cast<uint32_t>(particles->positions.size()), .origin = particles->origin, .extent = {1, 1, 1}});
   RILL_REQUIRE(setup || !setup.error().message.empty());
+  if (setup)
+    for (const PressureProbeRecord& probe : setup->pressureProbes)
+      RILL_REQUIRE(std::isfinite(probe.x) && std::isfinite(probe.y) && std::isfinite(probe.z));
   const SimulationKeys keys = simulationKeys(*scene, *particles);
   RILL_REQUIRE(firstDifference(keys, keys).empty());
   return 0;

@@ -10,13 +10,19 @@
 
 namespace rill::test {
 
-/// All scenes of assets/scenes, two with the keys of bodies, and one with overrides.
+/// All scenes of assets/scenes, one with the keys of pressure and of fluid that sticks, two with those of bodies, and one with overrides.
 inline std::vector<std::string> sceneSeeds() {
   std::vector<std::string> seeds;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes"))
     if (entry.path().extension() == ".json" && !entry.path().filename().string().ends_with(".schema.json"))
       seeds.push_back(contentOf(entry.path()));
   std::sort(seeds.begin(), seeds.end());
+  seeds.push_back(R"({"rill": "0.2", "domain": {"slip": false}, "fluid": {"spacing": 0.1, "viscosity": 5},
+    "fill": [{"box": {"max": [1, 0.5, 1]}}], "solids": [{"name": "post", "box": {"max": [0.2, 0.9, 0.2]}, "slip": false},
+    {"sphere": {"center": [0.6, 0.4, 0.5], "radius": 0.2}, "slip": false, "body": {"density": 300}},
+    {"sphere": {"radius": 0.1}, "slip": true, "motion": [{"at": 0}, {"at": 1, "translate": [0, 1, 0]}]}],
+    "probes": [{"name": "wet", "pressure": [0.5, 0.1, 0.8]}, {"name": "covered", "pressure": [0.1, 0.1, 0.1]},
+      {"name": "far", "pressure": [-1e30, 0, 1e300]}]})");
   seeds.push_back(R"({"rill": "0.2", "domain": {}, "fluid": {"spacing": 0.1}, "fill": [{"box": {"max": [1, 0.5, 1]}}], "solids": [
     {"name": "crate", "box": {"max": [0.3, 0.4, 0.5]}, "rotation": [0, 0, 1, 1], "friction": 0.3, "restitution": 0.5, "body":
       {"mass": 2, "velocity": [1, 0, -1], "angular_velocity": [0, 0, 3], "locked": ["y", "rx", "ry"], "from": 0.25}},

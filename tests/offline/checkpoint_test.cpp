@@ -177,6 +177,39 @@ TEST_F(BodySnapshotCheck, RejectsMotionsThatAreNotValid) {
   expectRejected("bodies[0]");
 }
 
+TEST_F(BodySnapshotCheck, RejectsMassesThatAreNotValid) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  for (const float value : {nan, inf, -inf, 0.0f, -2.0f}) {
+    set(s.bodies, kBodyWords + offsetof(BodyRecord, mass) / 4, value);
+    expectRejected("bodies[1]");
+  }
+}
+
+TEST_F(SnapshotCheck, RejectsReadingsOfPressureThatAreNotValid) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const std::vector<uint32_t> probe = s.pressures;
+  ASSERT_EQ(probe.size(), kPressureProbeWords);
+  good.pressures.insert(good.pressures.end(), probe.begin(), probe.end());
+  s = good;
+  EXPECT_TRUE(checkSnapshot(s, wanted)) << "readings of probes that the scene does not have are of no use";
+  const auto set = [&](size_t offset, uint32_t word) { s.pressures[kPressureProbeWords + offset / 4] = word; };
+  for (const float value : {nan, inf, -inf})
+    for (const size_t offset : {offsetof(PressureProbeRecord, x), offsetof(PressureProbeRecord, z), offsetof(PressureProbeRecord, mean),
+                                offsetof(PressureProbeRecord, integralHigh), offsetof(PressureProbeRecord, integralLow),
+                                offsetof(PressureProbeRecord, advance), offsetof(PressureProbeRecord, advanceTime)}) {
+      set(offset, std::bit_cast<uint32_t>(value));
+      expectRejected("pressures[1]");
+    }
+  set(offsetof(PressureProbeRecord, advanceTime), std::bit_cast<uint32_t>(-1e-3f));
+  expectRejected("pressures[1]");
+  set(offsetof(PressureProbeRecord, covered), 2);
+  expectRejected("pressures[1]");
+  s.pressures.pop_back();
+  expectRejected("pressures has 17 entries; expected a multiple of 9");
+  s.pressures.clear();
+  EXPECT_TRUE(checkSnapshot(s, wanted)) << "of a run without probes";
+}
+
 TEST_F(SnapshotCheck, AcceptsMatchingScene) {
   const auto checked = checkSnapshot(s, seedShape());
   EXPECT_TRUE(checked) << checked.error().message;

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "rill/offline.hpp"
+#include "shared/body_records.h"
+#include "shared/pressure_probe.h"
 #include "shared/solid_records.h"
 #include "support/child_process.hpp"
 #include "support/temporary_folder.hpp"
@@ -172,7 +174,7 @@ TEST_F(CheckpointTest, RejectsInvalidFiles) {
   expectRefused({"--resume", "."}, {"--resume", "is not a regular file"});
 }
 
-/// A box that floats, a mesh that falls on it, and one that is held for a while.
+/// A box that floats, a mesh that falls on it, and one that is held for a while; pressures in the fluid and inside the box.
 constexpr const char* kBodies = R"({
   "rill": "0.2", "duration": 0.2,
   "domain": {"min": [0, 0, 0], "max": [0.6, 0.8, 0.6]},
@@ -182,7 +184,9 @@ constexpr const char* kBodies = R"({
     {"name": "crate", "box": {"min": [0.1, 0.2, 0.1], "max": [0.35, 0.4, 0.4]}, "friction": 0.4, "body": {"density": 500}},
     {"mesh": {"file": "m.obj", "scale": 0.3}, "translation": [0.15, 0.42, 0.15], "friction": 0.3, "body": {"mass": 3, "velocity": [0, -1, 0]}},
     {"sphere": {"center": [0.45, 0.3, 0.45], "radius": 0.1}, "body": {"density": 2000, "from": 0.08}}],
-  "probes": [{"name": "crate", "pose": "crate"}, {"name": "load", "load": "crate"}]
+  "probes": [{"name": "crate", "pose": "crate"}, {"name": "load", "load": "crate"},
+             {"name": "wet", "pressure": [0.3, 0.1, 0.5]}, {"name": "floor", "pressure": [0, 0, 0.3]},
+             {"name": "covered", "pressure": [0.2, 0.3, 0.2]}]
 })";
 
 TEST_F(CheckpointTest, ResumedRunOfBodiesEqualsUninterruptedRun) {
@@ -192,7 +196,8 @@ TEST_F(CheckpointTest, ResumedRunOfBodiesEqualsUninterruptedRun) {
   figures({"--frames", "4", "--checkpoint", "run.rill"});
   figures({"--frames", "6", "--resume", "run.rill", "--checkpoint", "end.rill", "--stats", "rest.json"});
   const auto whole = frames("whole.json"), rest = frames("rest.json");
-  EXPECT_EQ(rest, std::vector<Json>(whole.begin() + 4, whole.end())) << "all figures, poses and loads, bitwise";
+  EXPECT_EQ(rest, std::vector<Json>(whole.begin() + 4, whole.end())) << "all figures, poses, loads and pressures, bitwise";
+  for (const Json& frame : rest) EXPECT_GT(frame["probes"]["wet"].get<double>(), 0) << frame["time_s"];
 
   auto run = offline::Simulation::open(*loadScene(folder / "dam.json"));
   ASSERT_TRUE(run);
@@ -220,6 +225,12 @@ TEST_F(CheckpointTest, RejectsDamagedBodies) {
   const auto nan = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
   refused([&](FluidSnapshot& s) { s.bodies[words + offsetof(PoseRecord, velocityY) / 4] = nan; },
           "bodies[1] has a motion that is not valid");
+  refused([&](FluidSnapshot& s) { s.bodies[words + offsetof(BodyRecord, mass) / 4] = 0; }, "bodies[1]");
+  refused([&](FluidSnapshot& s) { s.bodies[2 * words + offsetof(BodyRecord, mass) / 4] = nan; }, "bodies[2]");
+  refused([&](FluidSnapshot& s) { s.pressures[offsetof(PressureProbeRecord, integralHigh) / 4] = nan; }, "pressures[0]");
+  refused([&](FluidSnapshot& s) { s.pressures[good->fluid.pressures.size() / 3 + offsetof(PressureProbeRecord, covered) / 4] = 7; },
+          "pressures[1]");
+  refused([&](FluidSnapshot& s) { s.pressures.pop_back(); }, "pressures has 26 entries; expected a multiple of 9");
   refused([&](FluidSnapshot& s) { s.slips[1] = nan; }, "slips[0] is not finite");
   refused([&](FluidSnapshot& s) { s.bodies.resize(2 * words); },
           "bodies has " + std::to_string(2 * words) + " entries; expected " + std::to_string(3 * words));

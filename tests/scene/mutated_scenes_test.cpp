@@ -95,16 +95,26 @@ void addBodies(Scene& scene) {
       {.shape = MeshShape{.mesh = meshOf(ballMesh(0.1, 1))}, .translation = {0.6, 0.8, 0.6}, .body = Body{.density = 2000}});
 }
 
+/// Fluid that sticks to walls and solids, and probes of pressure in it and in a solid.
+void addStickyFluidAndPressures(Scene& scene) {
+  scene.fluid.viscosity = 20;
+  scene.domain->slip = false;
+  for (Solid& solid : scene.solids) solid.slip = false;
+  scene.probes.push_back({.name = "wet", .pressure = Double3{0.2, 0.1, 0.3}});
+  scene.probes.push_back({.name = "covered", .pressure = Double3{0.95, 0.2, 0.5}});
+}
+
 TEST(MutatedScenes, AreRejectedOrRun) {
   constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kValues[] = {nan, inf, -inf, 1e300, -1e300, 3e38, -3e38, 1e20, 1e-20, 1e-44, -1e-44, 1, -1, 4, 100, 0};
   constexpr double kFactors[] = {0, 0, 0, 1, -1, 2, 0.5, 1.1, 0.01, 100, 1e6, 1e-6};
   std::mt19937 random(20240229);
   const auto below = [&](size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random); };
-  int rejected = 0, ran = 0;
+  int rejected = 0, ran = 0, sticky = 0;
   for (int round = 0; round < 4000; ++round) {
     Scene scene = tank();
     if (round % 2 == 1) addBodies(scene);
+    if (round % 4 >= 2) addStickyFluidAndPressures(scene);
     const Numbers numbers(scene);
     for (size_t changes = 1 + below(3); changes > 0; --changes) {
       const double factor = kFactors[below(std::size(kFactors))];
@@ -140,12 +150,17 @@ TEST(MutatedScenes, AreRejectedOrRun) {
       for (const float number : {body.mass, body.inertiaXX, body.inertiaYY, body.inertiaZZ, body.radius, body.state.velocityX})
         EXPECT_TRUE(std::isfinite(number)) << round;
     }
+    for (const PressureProbeRecord& probe : setup->pressureProbes)
+      for (const float number : {probe.x, probe.y, probe.z}) EXPECT_TRUE(std::isfinite(number)) << round;
+    EXPECT_TRUE(std::isfinite(setup->params.pressureDensity)) << round;
+    sticky += setup->noSlipSolids && !setup->pressureProbes.empty();
     EXPECT_GT(setup->longestStep, 0) << round;
     EXPECT_TRUE(std::isfinite(setup->longestStep)) << round;
     for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.pose.centerX)) << round;
   }
   EXPECT_GT(rejected, 1000);
   EXPECT_GT(ran, 300);
+  EXPECT_GT(sticky, 100);
 }
 
 }  // namespace

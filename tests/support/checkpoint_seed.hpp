@@ -6,6 +6,7 @@
 #include "core/fnv1a.hpp"
 #include "fluid/snapshot.hpp"
 #include "rill/offline.hpp"
+#include "shared/pressure_probe.h"
 
 namespace rill::test {
 
@@ -21,7 +22,7 @@ std::vector<uint32_t> wordsOfRecord(const Record& record) {
   return all;
 }
 
-/// Six particles: two near a solid, one of them with more neighbors than its list holds.
+/// Six particles: two near a solid, one of them with more neighbors than its list holds; a probe of pressure.
 inline offline::Checkpoint seedCheckpoint() {
   offline::Checkpoint c;
   c.rill = "0.1.0";
@@ -51,6 +52,15 @@ inline offline::Checkpoint seedCheckpoint() {
     s.id.push_back(5 - i);
     s.cell.push_back(3 * i);
   }
+  s.pressures = wordsOfRecord(PressureProbeRecord{.x = 1,
+                                                  .y = 0.25f,
+                                                  .z = 0.5f,
+                                                  .mean = 2500,
+                                                  .integralHigh = 250,
+                                                  .integralLow = 1e-6f,
+                                                  .advance = 12.5f,
+                                                  .advanceTime = 5e-3f,
+                                                  .covered = 1});
   s.nearSolids = {{0, {0, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff}}, {5, {0xfffe}}};
   s.listCapacity = 4;
   s.neighborCount = {1, 2, 0, 4, 9, 1};

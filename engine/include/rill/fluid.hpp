@@ -57,7 +57,7 @@ struct SolidLoad {
 
 /// Pressure of the fluid at a point, over that of the air: 0 in air, and inside a solid.
 struct PressureReading {
-  double mean = 0;       ///< over the time that the last ended advance took, Pa
+  double mean = 0;       ///< over the time that the last ended advance took, Pa, >= 0
   double integral = 0;   ///< over the time since the start, Pa s
   bool covered = false;  ///< the point was inside a solid at the end
 };
@@ -137,11 +137,11 @@ struct FluidState {
   BufferRef control = {};   ///< FluidControl (shaders/shared/fluid_records.h)
   /// Its first uint is the number of particles: they are the first entries of the arrays. Null: renderers take `capacity`.
   BufferRef countBuffer = {};
-  BufferRef solids = {};       ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven or a mesh
-  BufferRef meshWords = {};    ///< fields of the meshes (mesh_field.h); null without meshes
-  BufferRef loads = {};        ///< SolidLoadRecord (solid_loads.h) per solid; null unless loads are measured, and with capacity 0
-  uint32_t capacity = 0;       ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
-  float spacing = 0;           ///< m
+  BufferRef solids = {};     ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven, a body or a mesh
+  BufferRef meshWords = {};  ///< fields of the meshes (mesh_field.h); null without meshes
+  BufferRef loads = {};      ///< SolidLoadRecord (solid_loads.h) per solid; null unless loads are measured, and with capacity 0
+  uint32_t capacity = 0;     ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
+  float spacing = 0;         ///< m
   Double3 origin = {0, 0, 0};  ///< m
 };
 

@@ -87,9 +87,9 @@ struct LoadValue {
   Double3 torque = {0, 0, 0};  ///< N m, about the solid's center
 };
 
-/// Where a solid is and how it moves, in the scene.
+/// Where a solid is and how it moves, in the scene. Probes of poses: by its center (of a mesh: its origin, of a body: its center of mass).
 struct PoseValue {
-  Double3 position = {0, 0, 0};         ///< of the center, m; a probe of a body has that of mass
+  Double3 position = {0, 0, 0};         ///< m; of what, its function says
   Quaternion rotation = {0, 0, 0, 1};   ///< unit quaternion x y z w, from the solid's frame to the scene's
   Double3 velocity = {0, 0, 0};         ///< m/s
   Double3 angularVelocity = {0, 0, 0};  ///< rad/s
@@ -97,7 +97,7 @@ struct PoseValue {
 
 /// Value of a probe of a pressure: mean over the last advance(); 0 before the first.
 struct PressureValue {
-  double pressure = 0;  ///< Pa, over that of the air; NaN inside a solid
+  double pressure = 0;  ///< Pa, over that of the air, >= 0; NaN inside a solid
 };
 
 /// A length (m) of a level or a front, or one of the above.
