@@ -58,6 +58,7 @@ class Capture {
     announce();
 
     if (options_.exportPoses) poses_.emplace(scene_);
+    if (poses_ && first_ > 0) poses_->keep(folder_->file("poses.csv"), first_);
     record_ = std::make_unique<Record>(simulation_->scene(), simulation_->device(), options_.command, first_ > 0 ? (first_ - 1) / fps_ : 0);
     const Expected<void> ran = runFrames();
     progress_.clear();

@@ -1,5 +1,8 @@
 #include "capture/pose_table.hpp"
 
+#include <charconv>
+#include <fstream>
+
 #include "core/words.hpp"
 
 namespace rill::capture {
@@ -18,6 +21,17 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 PoseTable::PoseTable(const Scene& scene) : scene_(&scene), text_(kHeader) {}
+
+void PoseTable::keep(const std::filesystem::path& file, uint32_t frame) {
+  std::ifstream earlier(file, std::ios::binary);
+  std::string line;
+  if (!std::getline(earlier, line) || line + "\n" != kHeader) return;
+  while (std::getline(earlier, line)) {
+    uint32_t number = 0;
+    if (std::from_chars(line.data(), line.data() + line.size(), number).ec == std::errc() && number >= frame) return;
+    text_ += line + "\n";
+  }
+}
 
 Expected<void> PoseTable::add(uint32_t frame, double time_s, offline::Simulation& simulation) {
   const auto poses = simulation.poses();

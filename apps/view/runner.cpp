@@ -17,14 +17,6 @@ namespace {
 /// Whether the fluid had a buffer on the device: particles or bodies.
 bool hasState(const FluidSnapshot& snapshot) { return !snapshot.control.empty(); }
 
-Pose bodyPose(const Solid& solid, const BodyMotion& motion) {
-  Pose pose{.center = motion.center, .rotation = motion.rotation, .velocity = motion.velocity, .angularVelocity = motion.angularVelocity};
-  const Double3 toCenter = toScene(pose, along({}, -1, massOf(solid.shape, 1).center));
-  pose.center = along(pose.center, 1, toCenter);
-  pose.velocity = along(pose.velocity, 1, cross(motion.angularVelocity, toCenter));
-  return pose;
-}
-
 }  // namespace
 
 Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scene scene) {
@@ -236,7 +228,10 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
 
 Pose Runner::pose(uint32_t solid) const {
   for (const BodyMotion& motion : fluid_->bodies())
-    if (motion.solid == solid) return bodyPose(scene_.solids[solid], motion);
+    if (motion.solid == solid)
+      return poseOfSolid(
+          scene_.solids[solid].shape,
+          {.center = motion.center, .rotation = motion.rotation, .velocity = motion.velocity, .angularVelocity = motion.angularVelocity});
   Pose current = solidPose(scene_.solids[solid], time_s());
   if (scene_.solids[solid].driven > 0) {
     current.center = fluid_->drivenCenter(solid);

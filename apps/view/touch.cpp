@@ -22,6 +22,7 @@ constexpr double kMaxWeights = 6;               // times gravity
 constexpr double kCrate = 0.075;                // edge of thrown crates, of the scene's longest side
 constexpr double kMinCrate = 5, kMaxCrate = 8;  // spacings
 constexpr double kCrateDensity = 500;           // kg/m^3
+constexpr int kMaxPlaces = 400;                 // along the ray, that are tried for a thrown crate
 constexpr double kPickRadius = 0.75;            // spacings: above 0.71 the spheres of a lattice leave no gap
 
 struct Box {
@@ -222,8 +223,9 @@ Expected<void> Touch::throwCrate(Session& session, const Ray& ray) {
   const Room free(session, std::move(*positions), edge);
   const double first = *enters + 0.5 * edge, last = std::min(boxInterval(room.low, room.high, ray.from, ray.along)[1], free.hit(ray));
   std::string obstacle;
-  for (double at = first; at == first || at < last; at += 0.25 * edge) {
-    Double3 center = ray.at(at);
+  const double step = std::max(0.25 * edge, (last - first) / kMaxPlaces);
+  for (int k = 0; k == 0 || (k < kMaxPlaces && first + k * step < last); ++k) {
+    Double3 center = ray.at(first + k * step);
     for (size_t a = 0; a < 3; ++a) center[a] = std::clamp(center[a], room.low[a] + gap, room.high[a] - gap);
     const std::string found = free.obstacleAt(center);
     if (obstacle.empty()) obstacle = found;
