@@ -1,5 +1,5 @@
 // Crates of a game's own physics engine, Bullet, that float and sink in Rill's water. In each frame the water's loads act on the crates,
-// Bullet moves them, and the water gets their poses as targets. Prints how deep they float.
+// Bullet moves them, and the water gets their poses as targets. Prints how deep they float and how high they rose above their start.
 // Usage: crates OUT.ppm
 #include <btBulletDynamicsCommon.h>
 
@@ -9,6 +9,7 @@
 #include <memory>
 #include <rill/fluid.hpp>
 #include <rill/fluid_renderer.hpp>
+#include <string>
 #include <vector>
 
 #include "borrow.hpp"
@@ -29,25 +30,27 @@ constexpr float kSpacing = 0.05f;                              // m, of the wate
 btVector3 vector(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 btVector3 vector(const rill::Double3& v) { return {float(v.x), float(v.y), float(v.z)}; }
 
-/// A crate of Bullet. A load arrives a frame after the motion that caused it: a crate that is lighter than the water that it moves would
-/// be thrown up and down by ever larger loads. So while water carries it, it has the mass of the water that it displaces besides its own,
-/// which has no weight: it bobs more slowly, and at rest floats as deep as without.
+/// A crate of Bullet. Loads arrive a frame late, which makes a crate oscillate that is lighter than the water that it moves. So while
+/// water carries it, it has the mass of the water that it displaces in addition, without weight (README.md: Light bodies).
 class Crate {
  public:
   Crate(btDynamicsWorld& world, float ratio, const btVector3& center)
-      : mass_(ratio * kDisplaced), body_(mass_, nullptr, &shape_, inertia(mass_)) {
+      : world_(world), start_(center.y()), mass_(ratio * kDisplaced), body_(mass_, nullptr, &shape_, inertia(mass_)) {
     body_.setWorldTransform(btTransform(btQuaternion::getIdentity(), center));
     body_.setActivationState(DISABLE_DEACTIVATION);
-    world.addRigidBody(&body_);
+    world_.addRigidBody(&body_);
   }
+  ~Crate() { world_.removeRigidBody(&body_); }
+  Crate(const Crate&) = delete;
+  Crate& operator=(const Crate&) = delete;
 
   void apply(const rill::SolidLoad& load) {
-    constexpr float kKept = 0.9f;  // a frame: between waves the mass goes gradually
+    constexpr float kKept = 0.9f;  // a frame: between waves the mass decreases gradually
     const btVector3 force = vector(load.force);
     const float weight = mass_ * kGravity;
     carried_ = std::max(std::min(force.length() / weight, 1.0f), kKept * carried_);
     const float mass = mass_ + carried_ * kDisplaced;
-    body_.setMassProps(mass, inertia(mass));
+    body_.setMassProps(mass, inertia(mass));  // keeps the velocities, not the momentum
     body_.updateInertiaTensor();
     body_.applyCentralForce(force - btVector3(0, weight, 0));
     body_.applyTorque(vector(load.torque));
@@ -66,6 +69,7 @@ class Crate {
   /// Of an upright crate, as a fraction of its height.
   float draught(float level) const { return std::clamp((level - body_.getCenterOfMassPosition().y()) / (2 * kHalf[1]) + 0.5f, 0.0f, 1.0f); }
   float tilt_deg() const { return std::acos(std::clamp(body_.getCenterOfMassTransform().getBasis()[1].y(), -1.0f, 1.0f)) * 57.29578f; }
+  float rise() const { return body_.getCenterOfMassPosition().y() - start_; }  ///< m, above the start
   float speed() const { return body_.getLinearVelocity().length(); }
   /// False for what is not finite, too.
   bool isInside() const {
@@ -83,6 +87,8 @@ class Crate {
   }
   // Contacts keep a spacing between solids: water that is pressed into less room than a particle needs is thrown out.
   btBoxShape shape_{vector(kHalf) + btVector3(kSpacing, kSpacing, kSpacing) / 2};
+  btDynamicsWorld& world_;
+  float start_;               ///< m, height of the center
   float mass_, carried_ = 0;  ///< kg; how much of its weight the water has carried, 0 to 1
   btRigidBody body_;
 };
@@ -125,6 +131,25 @@ float waterLevel(float volume, const std::vector<std::unique_ptr<Crate>>& crates
   return level;
 }
 
+/// The water must be where Bullet's time is: a solid jumps to its target when the rest of an advance is dropped.
+void expectComplete(const rill::FluidProgress& progress) {
+  const double missing = progress.timeLeft_s + progress.timeDropped_s;  // the former would be dropped by the next advance
+  if (missing > 0)
+    host::fail(("the water has not simulated " + std::to_string(missing) + " s of a frame: raise FluidStep::substeps").c_str());
+}
+
+/// The water's solid must be where Bullet's crate is: Rill shortens motions that are faster than Solid::driven.
+void expectReached(const rill::Fluid& water, const rill::SolidTarget& target) {
+  const rill::Double3 c = water.drivenCenter(target.solid);
+  const rill::Quaternion q = water.drivenRotation(target.solid), &to = *target.rotation;
+  const double apart = std::hypot(c.x - target.center.x, c.y - target.center.y, c.z - target.center.z);
+  const double cosine = std::abs(q.x * to.x + q.y * to.y + q.z * to.z + q.w * to.w);  // of half the angle between them
+  if (apart > 1e-4 || cosine < 1 - 1e-5)
+    host::fail(("crate " + std::to_string(target.solid) + " is faster than Solid::driven: its solid is " + std::to_string(apart) +
+                " m and " + std::to_string(2 * std::acos(std::min(cosine, 1.0))) + " rad from it: raise Solid::driven")
+                   .c_str());
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -163,10 +188,12 @@ int main(int count, char** arguments) {
 
     rill::Graph graph;
     float draughts[kCrates] = {}, speeds[kCrates] = {};  // sum and maximum over the measured frames
+    float rises[kCrates] = {};                           // maximum over all frames
     for (int k = 0; k < kFrames; ++k) {
       engine.wait();  // for the loads of the last frame
       const host::Frame frame = engine.begin();
       device.beginFrame({frame.number, frame.completed});
+      expectComplete(water.progress());
       for (uint32_t n = 0; n < kCrates; ++n) crates[n]->apply(water.solidLoads()[n]);
       world.dynamics.stepSimulation(kFrame, 4, kFrame / 4);
 
@@ -178,6 +205,7 @@ int main(int count, char** arguments) {
         const float dark = 1 - 0.18f * float(n);
         targets.push_back(crates[n]->target(n));
         drawn.push_back(crates[n]->cuboid({0.85f * dark, 0.5f * dark, 0.2f * dark}));
+        rises[n] = std::max(rises[n], crates[n]->rise());
         if (k < kFrames - kMeasured) continue;
         draughts[n] += crates[n]->draught(level);
         speeds[n] = std::max(speeds[n], crates[n]->speed());
@@ -187,7 +215,9 @@ int main(int count, char** arguments) {
       graph.reset();
       const rill::SceneTargets images{importTarget(graph, "color", color, rill::Use::ColorTarget),
                                       importTarget(graph, "depth", depth, rill::Use::DepthTarget)};
-      (void)renderer.addTo(graph, water.addTo(graph, {.advance_s = kFrame, .targets = targets}), images, view);
+      const rill::FluidState state = water.addTo(graph, {.advance_s = kFrame, .targets = targets});
+      for (const rill::SolidTarget& target : targets) expectReached(water, target);
+      (void)renderer.addTo(graph, state, images, view);
       need(graph.compile());
       need(graph.prepare(device));
       graph.record(frame.commands);
@@ -195,8 +225,8 @@ int main(int count, char** arguments) {
     }
     engine.wait();
     for (uint32_t n = 0; n < kCrates; ++n)
-      std::printf("density %.1f: draught %.3f of its height, tilt %.1f degrees, %.3f m/s\n", double(kRatios[n]),
-                  double(draughts[n] / kMeasured), double(crates[n]->tilt_deg()), double(speeds[n]));
+      std::printf("density %.1f: draught %.3f of its height, tilt %.1f degrees, %.3f m/s, rise %.3f m\n", double(kRatios[n]),
+                  double(draughts[n] / kMeasured), double(crates[n]->tilt_deg()), double(speeds[n]), double(rises[n]));
   }
   engine.save(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, arguments[1]);
   engine.destroy(color);

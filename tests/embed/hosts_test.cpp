@@ -90,7 +90,7 @@ TEST(SameGame, RendersIdenticalPixels) {
 
 /// What crates.cpp prints of a crate.
 struct Floating {
-  double ratio = 0, draught = 0, tilt_deg = 0, speed = 0;
+  double ratio = 0, draught = 0, tilt_deg = 0, speed = 0, rise_m = 0;
 };
 
 TEST(Crates, FloatAtTheirDraught) {
@@ -105,9 +105,9 @@ TEST(Crates, FloatAtTheirDraught) {
   std::vector<Floating> crates;
   for (std::string line; std::getline(text, line);) {
     Floating c;
-    ASSERT_EQ(std::sscanf(line.c_str(), "density %lf: draught %lf of its height, tilt %lf degrees, %lf m/s", &c.ratio, &c.draught,
-                          &c.tilt_deg, &c.speed),
-              4)
+    ASSERT_EQ(std::sscanf(line.c_str(), "density %lf: draught %lf of its height, tilt %lf degrees, %lf m/s, rise %lf m", &c.ratio,
+                          &c.draught, &c.tilt_deg, &c.speed, &c.rise_m),
+              5)
         << "not a validation message, but: " << line;
     crates.push_back(c);
   }
@@ -117,6 +117,7 @@ TEST(Crates, FloatAtTheirDraught) {
     EXPECT_NEAR(c.draught, std::min(c.ratio, 1.0), 0.125) << "half a spacing";
     EXPECT_LT(c.tilt_deg, 10);
     EXPECT_LT(c.speed, c.ratio > 1 ? 0.02 : 0.3) << "waves move what floats, not what lies on the floor";
+    EXPECT_LT(c.rise_m, 0.15) << "0.06 for the lightest, 0.31 without the added mass";
   }
   // The picture has crates and water.
   const Picture picture = readPicture(file);
