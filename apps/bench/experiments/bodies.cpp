@@ -129,23 +129,16 @@ Expected<Outcome> heave(const Bench& bench, double spacing) {
   // where it floats, in the water that there is
   const double rest = (double(samples->front().stats.particles) * std::pow(spacing, 3) + volume / 2) / (kTank * kTank);
   std::vector<std::pair<double, double>> curve;
-  double lowest = 0, highest = -1, lowestAt = 0, highestAt = 0, released = 0, gained = 0;
+  double lowest = 0, highest = -1, lowestAt = 0, highestAt = 0;
   for (const Sample& s : *samples) {
     const double since = s.time_s - kHeld, height = (s.pose.position.y - rest) / kDrop;
     if (since < -kFrame / 2) continue;
     curve.emplace_back(since, height);
-    const FluidStats& stats = s.stats;
-    const double energy = stats.kinetic_J + stats.potential_J + stats.bodies->kinetic_J + stats.bodies->potential_J;
-    if (curve.size() == 1) released = energy;
-    gained = std::max(gained, energy - released);
     if (height < lowest) lowest = height, lowestAt = since, highest = height;
     if (since > lowestAt && height > highest) highest = height, highestAt = since;
   }
-  // The work of the weight on the ball as it goes down to where it floats.
-  const double available = 1000 * kGravity * std::numbers::pi * kEdge * kEdge / 4 * kDrop * kDrop / 2;
   outcome.figures.push_back(relativeFigure("period", highestAt, kPeriod));
   outcome.figures.push_back(relativeFigure("height after a period", highest, kept));
-  outcome.figures.push_back(plainFigure("energy gained", gained / available));
   outcome.curves["height over that of the start"] = curveJson(curve);
   return outcome;
 }

@@ -1,6 +1,7 @@
 // No-slip: flow between plates, a plate that is towed, and a ball that falls in thick fluid.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <variant>
 
@@ -57,6 +58,10 @@ Expected<Outcome> poiseuille(const Bench& bench, double spacing) {
           if (std::abs(y - kPlateGap / 2) < spacing) middle += u - 4 * y / kPlateGap * (1 - y / kPlateGap) + 1, ++nearMiddle;
         }
         for (size_t n = 0; n < layers; ++n) {
+          if (members[n] == 0) {
+            worst = std::numeric_limits<double>::infinity();
+            continue;
+          }
           const double y = height[n] / members[n], u = speed[n] / members[n];
           profile.emplace_back(y, u);
           worst = std::max(worst, std::abs(u - 4 * y * (1 - y)));

@@ -42,6 +42,7 @@ constexpr const char* kNamedBox = R"([{"name": "box", "box": {"min": [2.6, 0, 0.
 constexpr const char* kBody = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "body": {"density": 500}}])";
 constexpr const char* kLoad = R"([{"name": "load", "load": "box"}])";
 constexpr const char* kPressure = R"([{"name": "pressure", "pressure": [0.5, 0.2, 0.5]}])";
+constexpr const char* kNoSlipBox = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "slip": false}])";
 constexpr const char* kDistantBox = R"([{"box": {"min": [4.6, 3, 0.3], "max": [4.9, 3.6, 0.7]}}])";
 constexpr const char* kSphere = R"([{"sphere": {"center": [2.8, 0.3, 0.5], "radius": 0.25}}])";
 constexpr const char* kMoving =
@@ -57,6 +58,10 @@ Solid meshBall() {
 std::vector<Feature> features() {
   return {
       {"viscosity", {{"fluid.viscosity", "1"}}, {{"fluid.viscosity", "0"}}},
+      {"viscosity, no-slip walls",
+       {{"rill", "\"0.2\""}, {"fluid.viscosity", "1"}, {"domain.slip", "false"}},
+       {{"rill", "\"0.2\""}, {"domain.slip", "false"}}},
+      {"viscosity, no-slip box", {{"rill", "\"0.2\""}, {"fluid.viscosity", "1"}, {"solids", kNoSlipBox}}},
       {"vorticity", {{"fluid.vorticity", "0.2"}}, {{"fluid.vorticity", "0"}}},
       {"drag", {{"rill", "\"0.2\""}, {"fluid.drag", "0.5"}}, {{"rill", "\"0.2\""}, {"fluid.drag", "0"}}},
       // When it is off, its other settings must have no effect.
