@@ -74,7 +74,8 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
     return bytes;
   };
   const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
-  for (const char* name : {"iteration multipliers", "density that solids displace", "tangential scales at solids", "particles near solids"})
+  for (const char* name : {"multipliers", "pressure probes", "density that solids displace", "tangential scales at solids",
+                           "particles near solids", "rigid bodies", "pulls of bodies"})
     expectOff(name);
   for (const char* name : {"warm-start accelerations", "warm-start multipliers", "list heads", "neighbor list"})
     EXPECT_GE(bytesOf(name), 4000u) << name;
@@ -85,7 +86,11 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
   expectOff("list heads");
   expectOff("neighbor list");
   scene.solver.iterations = 3;
-  EXPECT_GE(bytesOf("iteration multipliers"), 4000u);
+  EXPECT_GE(bytesOf("multipliers"), 4000u);
+  scene.solver.iterations = 1;
+  expectOff("multipliers");
+  scene.probes = {{.name = "p", .pressure = Double3{0, 0, 0}}};
+  EXPECT_GE(bytesOf("multipliers"), 4000u) << "for probes of pressure";
 }
 
 TEST_F(CountedMemory, RejectsTooLargeFluidsWithTheLimitAndWhatFits) {
