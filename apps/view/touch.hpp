@@ -28,7 +28,7 @@ class Touch {
   /// Adds a ball of fluid where the ray enters the scene, moving along the ray. BadInput where there is no room.
   static Expected<uint64_t> throwFluid(Session& session, const Ray& ray);
   /// Adds a box with a body at the first place on the ray, within the scene and before what it hits, where there is room, moving along the
-  /// ray. BadInput where there is none.
+  /// ray. BadInput where it has no room.
   static Expected<void> throwCrate(Session& session, const Ray& ray);
 
   /// m/s: the scene's longest side per second.

@@ -100,7 +100,7 @@ struct FluidParams {
   float inverseCell;      // 1/m, in y and z
   float tableStep;        // m between nodes of the tables
   uint tableNodes;        // of the half-space's table, which comes first
-  uint noSlipTable;       // entries before the table of engine/sph/no_slip.hpp, of the same nodes; 0: there is none
+  uint noSlipTable;       // entries before the table of engine/sph/no_slip.hpp, of the same nodes; 0: no solid needs it
   float viscosityRate;    // XSPH coefficient a second of step, 1/s
   float noiseDampingRate;      // coefficient of noise damping a second of block, in a fluid at rest, 1/s
   float vorticity;        // dimensionless

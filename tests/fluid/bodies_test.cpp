@@ -82,17 +82,12 @@ class BodiesTest : public FluidTest {
   void expectReferenceMotion(const Trial& t, int substeps, double limit) {
     Oracle oracle(t);
     oracle.advance(substeps);
-    for (Gather gather : kGathers) {
-      SCOPED_TRACE(nameOf(gather));
-      Trial own = t;
-      own.gather = gather;
-      auto run = start(own);
-      run->substeps(substeps);
-      run->read({});
+    forEachGather(t, substeps, [&](Run& run) {
+      run.read({});
       double moved = 0;
       for (size_t n = 0; n < t.scene.solids.size(); ++n) {
         if (!t.scene.solids[n].body) continue;
-        const BodyMotion m = motion(*run, n);
+        const BodyMotion m = motion(run, n);
         const reference::BodyMotion& exact = oracle.solver().bodies().motion(n);
         const double unit = limit * t.d(), radius = boundingRadius(t.scene.solids[n].shape);
         EXPECT_LT(glm::length(vec(m.center) - exact.center - vec(t.origin)), unit) << n;
@@ -102,7 +97,7 @@ class BodiesTest : public FluidTest {
         moved = std::max(moved, glm::length(exact.velocity - vec(t.scene.solids[n].body->velocity)));
       }
       EXPECT_GT(moved, 0.01) << "the trial moves no body";
-    }
+    });
   }
 };
 

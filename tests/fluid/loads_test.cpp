@@ -35,32 +35,20 @@ class LoadsTest : public FluidTest {
   /// Impulses since the start, on the device and of the reference.
   void expectReferenceLoads(const Trial& t, int substeps, double limit) {
     Oracle oracle(t);
-    std::vector<reference::Impulse> sums(t.scene.solids.size());
-    for (int n = 0; n < substeps; ++n) {
-      oracle.advance(1);
-      for (size_t k = 0; k < sums.size(); ++k) {
-        sums[k].linear += oracle.solver().impulses()[k].linear;
-        sums[k].angular += oracle.solver().impulses()[k].angular;
-      }
-    }
+    const auto sums = oracle.advanceWithLoads(substeps);
     double largest = 0;
     for (const auto& sum : sums) largest = std::max(largest, glm::length(sum.linear));
     ASSERT_GT(largest, 0);
-    for (Gather gather : kGathers) {
-      SCOPED_TRACE(nameOf(gather));
-      Trial own = t;
-      own.gather = gather;
-      auto run = start(own);
-      run->substeps(substeps);
-      ASSERT_EQ(run->fluid().solidLoads().size(), sums.size());
+    forEachGather(t, substeps, [&](Run& run) {
+      ASSERT_EQ(run.fluid().solidLoads().size(), sums.size());
       for (size_t k = 0; k < sums.size(); ++k) {
-        const SolidLoad& load = run->fluid().solidLoads()[k];
+        const SolidLoad& load = run.fluid().solidLoads()[k];
         const double size = std::max(glm::length(sums[k].linear), 0.01 * largest);
         EXPECT_LT(glm::length(vec(load.impulse) - sums[k].linear), limit * size) << k;
         EXPECT_LT(glm::length(vec(load.angularImpulse) - sums[k].angular), limit * (0.1 * size + glm::length(sums[k].angular))) << k;
         for (int a = 0; a < 3; ++a) EXPECT_NEAR(load.force[a] * substeps * t.step, load.impulse[a], 1e-5 * size) << "one advance";
       }
-    }
+    });
   }
 };
 

@@ -68,36 +68,24 @@ class NoSlipTest : public FluidTest {
   /// Impulses on solids since the start, and motions of bodies, on the device and of the reference.
   void expectReferenceMotion(const Trial& t, int substeps, double limit) {
     Oracle oracle(t);
-    std::vector<reference::Impulse> sums(t.scene.solids.size());
+    const auto sums = oracle.advanceWithLoads(substeps);
     double largest = 0;
-    for (int n = 0; n < substeps; ++n) {
-      oracle.advance(1);
-      for (size_t k = 0; k < sums.size(); ++k) {
-        sums[k].linear += oracle.solver().impulses()[k].linear;
-        sums[k].angular += oracle.solver().impulses()[k].angular;
-        largest = std::max(largest, glm::length(sums[k].linear));
-      }
-    }
+    for (const auto& sum : sums) largest = std::max(largest, glm::length(sum.linear));
     ASSERT_GT(largest, 0);
-    for (Gather gather : kGathers) {
-      SCOPED_TRACE(nameOf(gather));
-      Trial own = t;
-      own.gather = gather;
-      auto run = start(own);
-      run->substeps(substeps);
-      ASSERT_EQ(run->fluid().solidLoads().size(), sums.size());
+    forEachGather(t, substeps, [&](Run& run) {
+      ASSERT_EQ(run.fluid().solidLoads().size(), sums.size());
       for (size_t k = 0; k < sums.size(); ++k) {
-        const SolidLoad& load = run->fluid().solidLoads()[k];
+        const SolidLoad& load = run.fluid().solidLoads()[k];
         EXPECT_LT(glm::length(vec(load.impulse) - sums[k].linear), limit * largest) << k;
         EXPECT_LT(glm::length(vec(load.angularImpulse) - sums[k].angular), limit * 0.2 * largest) << k;
         for (int a = 0; a < 3; ++a) EXPECT_NEAR(load.force[a] * substeps * t.step, load.impulse[a], 1e-5 * largest) << "one advance";
       }
-      for (const BodyMotion& m : run->fluid().bodies()) {
+      for (const BodyMotion& m : run.fluid().bodies()) {
         const reference::BodyMotion& exact = oracle.solver().bodies().motion(m.solid);
         EXPECT_LT(glm::length(vec(m.velocity) - exact.velocity) * t.step, limit * t.d()) << m.solid;
         EXPECT_LT(glm::length(vec(m.angularVelocity) - exact.angularVelocity) * 0.2 * t.step, limit * t.d()) << m.solid;
       }
-    }
+    });
   }
 };
 

@@ -55,13 +55,8 @@ class PressureTest : public FluidTest {
     constexpr double kFloor = 1e-5;  // of the largest integral: rounding where pressures cancel
     const double largest = *std::ranges::max_element(integral);
     EXPECT_EQ(std::ranges::count_if(integral, [&](double x) { return x > 1e-2 * largest; }), wet);
-    for (Gather gather : kGathers) {
-      SCOPED_TRACE(nameOf(gather));
-      Trial own = t;
-      own.gather = gather;
-      auto run = start(own);
-      run->substeps(substeps);
-      const auto found = readings(*run);
+    forEachGather(t, substeps, [&](Run& run) {
+      const auto found = readings(run);
       ASSERT_EQ(found.size(), probes.size());
       for (size_t k = 0; k < probes.size(); ++k) {
         EXPECT_EQ(found[k].covered, k == 5) << k;
@@ -69,7 +64,7 @@ class PressureTest : public FluidTest {
         EXPECT_NEAR(found[k].integral, integral[k], limit * integral[k] + kFloor * largest) << k;
         EXPECT_NEAR(found[k].mean * substeps * t.step, found[k].integral, 1e-5 * largest) << "one advance";
       }
-    }
+    });
   }
 };
 

@@ -172,6 +172,18 @@ Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), r
   solver_.begin(trial.step);
 }
 
+std::vector<reference::Impulse> Oracle::advanceWithLoads(int substeps) {
+  std::vector<reference::Impulse> sums(trial_.scene.solids.size());
+  for (int n = 0; n < substeps; ++n) {
+    advance(1);
+    for (size_t k = 0; k < sums.size(); ++k) {
+      sums[k].linear += solver_.impulses()[k].linear;
+      sums[k].angular += solver_.impulses()[k].angular;
+    }
+  }
+  return sums;
+}
+
 void Oracle::advance(int substeps) {
   for (int n = 0; n < substeps; ++n) {
     // A change that is due when a substep ends acts on the prediction of the next one.
@@ -286,6 +298,16 @@ Difference FluidTest::difference(const Trial& trial, int substeps) {
     if (!(velocity <= most.velocity)) most.velocity = velocity;
   }
   return most;
+}
+
+void FluidTest::forEachGather(Trial trial, int substeps, const std::function<void(Run&)>& check) {
+  for (Gather gather : kGathers) {
+    SCOPED_TRACE(nameOf(gather));
+    trial.gather = gather;
+    auto run = start(trial);
+    run->substeps(substeps);
+    check(*run);
+  }
 }
 
 void FluidTest::expectEqual(Trial trial, int substeps, double position, double velocity, double ageing) {

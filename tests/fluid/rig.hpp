@@ -1,5 +1,6 @@
 #pragma once
 // The solver on the device beside the reference: both made from one scene, particles compared by id, in units of the spacing.
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -70,6 +71,8 @@ class Oracle {
   explicit Oracle(const Trial& trial);
   /// Substeps of the trial's step, with the scene's changes of gravity.
   void advance(int substeps);
+  /// The same; returns what each solid got.
+  std::vector<reference::Impulse> advanceWithLoads(int substeps);
   reference::ReferenceSolver& solver() { return solver_; }
 
  private:
@@ -136,6 +139,8 @@ class FluidTest : public GpuTest {
     uint64_t before_;
   };
 
+  /// Calls check() with a run of the trial after `substeps`, for every way to gather neighbors.
+  void forEachGather(Trial trial, int substeps, const std::function<void(Run&)>& check);
   /// After `substeps` of both solvers.
   Difference difference(const Trial& trial, int substeps);
   /// For every way to gather neighbors: none above the limits (spacings). `ageing` is added for the list, in which pairs that have come

@@ -3,9 +3,7 @@
 
 #include <cmath>
 
-#include "support/gpu_test.hpp"
-#include "support/temporary_folder.hpp"
-#include "view/touch.hpp"
+#include "view_runner/session_rig.hpp"
 
 namespace rill::view {
 namespace {
@@ -24,39 +22,9 @@ constexpr const char* kDamAlone = R"({
   "fill": [{"box": {"min": [0, 0, 0], "max": [0.5, 0.4, 0.6]}}]
 })";
 
-class ViewedBodiesTest : public test::GpuTest {
+class ViewedBodiesTest : public SessionTest {
  protected:
-  void TearDown() override {
-    session_.reset();
-    GpuTest::TearDown();
-  }
-  void open(const char* scene) {
-    auto opened = Session::open(context(), folder.write("scene.json", scene));
-    ASSERT_TRUE(opened) << opened.error().message;
-    session_ = std::move(*opened);
-    steps(1);
-  }
-  Runner& runner() { return session_->runner(); }
-  Session& session() { return *session_; }
-  /// Looks along -z from the front at a place.
-  static Ray at(double x, double y) { return {{x, y, 3}, {0, 0, -1}}; }
-  static CameraView eye() { return {.eye = {1.5, 0.5, 3}, .target = {1.5, 0.5, 0}, .fov_y_deg = 40}; }
-  void steps(int count) {
-    for (int k = 0; k < count; ++k) {
-      auto ran = runner().step();
-      ASSERT_TRUE(ran) << ran.error().message;
-    }
-  }
-  FluidStats stats() {
-    auto measured = runner().measure();
-    EXPECT_TRUE(measured);
-    return measured ? *measured : FluidStats{};
-  }
   double height(uint32_t solid) { return runner().pose(solid).center.y; }
-
-  test::TemporaryFolder folder;
-  std::unique_ptr<Session> session_;
-  Touch touch_;
 };
 
 TEST_F(ViewedBodiesTest, RightDragPullsThem) {

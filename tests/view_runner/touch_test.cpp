@@ -7,8 +7,7 @@
 #include <random>
 
 #include "offline/painter.hpp"
-#include "support/gpu_test.hpp"
-#include "support/temporary_folder.hpp"
+#include "view_runner/session_rig.hpp"
 
 namespace rill::view {
 namespace {
@@ -20,39 +19,12 @@ constexpr const char* kPool = R"({
              {"box": {"min": [1.6, 0.55, 0.2], "max": [1.8, 0.75, 0.4]}}]
 })";
 
-class TouchTest : public test::GpuTest {
+class TouchTest : public SessionTest {
  protected:
   void SetUp() override {
-    GpuTest::SetUp();
-    auto opened = Session::open(context(), folder.write("pool.json", kPool));
-    ASSERT_TRUE(opened) << opened.error().message;
-    session_ = std::move(*opened);
-    ASSERT_TRUE(runner().step());
+    SessionTest::SetUp();
+    open(kPool);
   }
-  void TearDown() override {
-    session_.reset();
-    GpuTest::TearDown();
-  }
-  Runner& runner() { return session_->runner(); }
-  Session& session() { return *session_; }
-  /// Looks along -z from the front at a place.
-  static Ray at(double x, double y) { return {{x, y, 3}, {0, 0, -1}}; }
-  static CameraView eye() { return {.eye = {1.5, 0.5, 3}, .target = {1.5, 0.5, 0}, .fov_y_deg = 40}; }
-  void steps(int count) {
-    for (int k = 0; k < count; ++k) {
-      auto ran = runner().step();
-      ASSERT_TRUE(ran) << ran.error().message;
-    }
-  }
-  FluidStats stats() {
-    auto measured = runner().measure();
-    EXPECT_TRUE(measured);
-    return measured ? *measured : FluidStats{};
-  }
-
-  test::TemporaryFolder folder;
-  std::unique_ptr<Session> session_;
-  Touch touch_;
 };
 
 TEST_F(TouchTest, BallPushesFluidAndIsRemoved) {
