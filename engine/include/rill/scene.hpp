@@ -28,10 +28,11 @@ using SideMask = uint8_t;
 
 /// An axis-aligned box of walls. Particle positions are stored relative to `min`.
 struct Domain {
-  Double3 min = {0, 0, 0};  ///< m
-  Double3 max = {1, 1, 1};  ///< m
-  SideMask open = 0;        ///< sides without a wall; particles that leave stay in the simulation and are counted as outside
-  bool slip = true;         ///< false: viscous fluid sticks to the walls
+  Double3 min = {0, 0, 0};    ///< m
+  Double3 max = {1, 1, 1};    ///< m
+  SideMask open = 0;          ///< sides without a wall; particles that leave stay in the simulation and are counted as outside
+  bool open_removes = false;  ///< particles that leave through an open side are removed, and counted as left
+  bool slip = true;           ///< false: viscous fluid sticks to the walls
 };
 
 /// The smoothing kernel.
@@ -58,6 +59,8 @@ struct FluidSettings {
   double tensile = 1;            ///< strength of the artificial pressure s_corr (eq. 13), 0 .. 1
   double tensile_radius = 0.25;  ///< delta q of s_corr over the smoothing length, 0 .. 1 exclusive
   double tensile_power = 16;     ///< exponent n of s_corr, 1 .. 16
+  /// Particles at a time, at most; 0: those at the start, and what the emitters add in the scene's duration.
+  uint64_t capacity = 0;
 };
 
 /// Accuracy and cost of the solver. Empty optionals mean "auto".
@@ -150,6 +153,42 @@ struct Solid {
   std::string name = {};  ///< unique among solids, or empty
 };
 
+/// A round mouth of an emitter.
+struct DiscMouth {
+  Double3 center = {0, 0, 0};   ///< m
+  double radius = 1;            ///< m, > 0
+  Double3 normal = {0, -1, 0};  ///< direction of the flow, of any length above 0
+};
+
+/// A rectangular mouth of an emitter.
+struct RectMouth {
+  Double3 center = {0, 0, 0};               ///< m
+  std::pair<double, double> size = {1, 1};  ///< width, along normal x up, and height, along `up`, m, > 0
+  Double3 normal = {0, -1, 0};              ///< direction of the flow, of any length above 0
+  Double3 up = {0, 0, 1};                   ///< not parallel to the normal; its part across the normal counts
+};
+
+/// The shape of a mouth.
+using Mouth = std::variant<DiscMouth, RectMouth>;
+
+/// A source of fluid, which leaves a mouth at rest density. Exactly one of `flow` and `speed` is given.
+struct Emitter {
+  std::string name = {};  ///< unique among emitters and drains, or empty
+  Mouth mouth = {};
+  double flow = 0;                   ///< m^3/s, > 0; 0 if `speed` is given
+  double speed = 0;                  ///< m/s, > 0: flow over the area of the mouth; 0 if `flow` is given
+  double from = 0;                   ///< s, >= 0
+  std::optional<double> until = {};  ///< s, later than `from`; empty: for ever
+};
+
+/// A volume that removes the particles in it.
+struct Drain {
+  std::string name = {};  ///< unique among emitters and drains, or empty
+  std::variant<BoxShape, SphereShape> shape = {};
+  double from = 0;                   ///< s, >= 0
+  std::optional<double> until = {};  ///< s, later than `from`; empty: for ever
+};
+
 /// Gravity from a given time on.
 struct GravityChange {
   double at = 0;              ///< s, later than the previous change
@@ -159,7 +198,7 @@ struct GravityChange {
 /// A direction along an axis, or against it.
 enum class Axis : uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
 
-/// A measurement. Exactly one of `level`, `front`, `load`, `pose` and `pressure` is given.
+/// A measurement. Exactly one of `level`, `front`, `load`, `pose`, `pressure` and `flow` is given.
 struct Probe {
   std::string name = {};                                ///< unique, not empty
   std::optional<std::pair<double, double>> level = {};  ///< height of the fluid column at x, z (m)
@@ -167,6 +206,7 @@ struct Probe {
   std::string load = {};                                ///< name of a solid: force and torque of the fluid on it
   std::string pose = {};                                ///< name of a solid: where it is and how fast it moves
   std::optional<Double3> pressure = {};                 ///< of the fluid at this point, m
+  std::string flow = {};                                ///< name of an emitter or a drain: the fluid that went through it
 };
 
 /// The camera of the pictures.
@@ -196,6 +236,8 @@ struct Scene {
   SolverSettings solver = {};
   std::vector<Fill> fill = {};
   std::vector<Solid> solids = {};
+  std::vector<Emitter> emitters = {};
+  std::vector<Drain> drains = {};
   std::vector<Probe> probes = {};
   std::optional<Camera> camera = {};  ///< empty: frames the domain or the fluid
   Look look = {};
