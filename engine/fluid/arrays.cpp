@@ -55,6 +55,10 @@ constexpr std::array<ArrayRow, kArrays> kArrayTable = {{
      [](const ArrayShape& s) { return s.pressureProbes; }},
     {Pulls, "pulls", "pulls of bodies", Fluid, sizeof(PullRecord),
      [](const ArrayShape& s) { return s.bodies > 0 ? uint64_t{kMaxPulls} : 0; }},
+    {Emitters, "emitters", "emitters", Fluid, sizeof(EmitterRecord), [](const ArrayShape& s) { return s.emitters; }},
+    {MouthPoints, "mouthPoints", "points of emitters' mouths", Fluid, 8, [](const ArrayShape& s) { return s.mouthPoints; }},
+    {Drains, "drains", "drains", Fluid, sizeof(DrainRecord), [](const ArrayShape& s) { return s.drains; }},
+    {Flow, "flow", "ledger of particles", Fluid, sizeof(FlowRecord), [](const ArrayShape& s) { return uint64_t{s.removes}; }},
     {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},
     {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
@@ -121,13 +125,16 @@ ArrayShape arrayShape(const FluidSetup& setup) {
   const FluidParams& p = setup.params;
   return {.particles = p.capacity,
           .listEntries = divideUp(p.capacity, kListBlock) * kListBlock * p.listCapacity,
-          .cellStarts = paddedWords(setup.grid.cells() + 1),
+          .cellStarts = paddedWords(keyRange(setup) + 1),
           .gravityChanges = setup.gravity.size() / 4,
           .tableEntries = setup.tables.size() / 4,
           .solids = p.solidCount,
           .bodies = p.bodyCount,
           .contactPoints = p.contactPoints,
           .pressureProbes = p.pressureProbes,
+          .emitters = setup.emitters.size(),
+          .mouthPoints = setup.mouthPoints.size(),
+          .drains = setup.drains.size(),
           .meshWords = setup.meshWords.size(),
           .keyframes = setup.keyframes.size() / kKeyframeNumbers,
           .lists = p.listCapacity > 0,
@@ -136,7 +143,8 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0,
           .vorticity = p.vorticity > 0,
           .loads = setup.loads,
-          .noSlipBodies = setup.noSlipBodies};
+          .noSlipBodies = setup.noSlipBodies,
+          .removes = setup.removes};
 }
 
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
@@ -144,7 +152,7 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
   const uint64_t capacity = lists ? listCapacity(scene.fluid.smoothing_ratio + kListSkin, hasWalls(scene)) : 0;
   return {.particles = particles,
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
-          .cellStarts = maxGridCells(particles) + 1,
+          .cellStarts = maxGridCells(particles) + 1 + uint64_t{removes(scene)},
           .solids = scene.solids.size(),
           .bodies = bodyCount(scene),
           .contactPoints = kMaxContactPoints * bodyCount(scene),

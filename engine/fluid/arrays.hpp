@@ -34,6 +34,10 @@ enum class FluidArray : uint8_t {
   ContactCandidates,
   PressureProbes,
   Pulls,
+  Emitters,
+  MouthPoints,
+  Drains,
+  Flow,
   MeshWords,
   Keyframes,
   // Per particle.
@@ -87,9 +91,10 @@ struct ArrayShape {
   uint64_t particles = 0;    ///< at most
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
-  uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, meshWords = 0,
-           keyframes = 0;
-  bool lists = true, warm = false, multipliers = false, smooths = false, vorticity = false, loads = false, noSlipBodies = false;
+  uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
+           mouthPoints = 0, drains = 0, meshWords = 0, keyframes = 0;
+  bool lists = true, warm = false, multipliers = false, smooths = false, vorticity = false, loads = false, noSlipBodies = false,
+       removes = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);
 /// An upper bound, from the scene alone.

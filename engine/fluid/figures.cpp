@@ -57,6 +57,17 @@ void FluidImpl::takeLoads(std::span<const std::byte> records) const {
   }
 }
 
+// The ledger, and what went through each emitter and drain.
+void FluidImpl::takeFlows(std::span<const std::byte> flow, std::span<const std::byte> emitters, std::span<const std::byte> drains) const {
+  if (!read(flow, ledger)) return;
+  const double volume = std::pow(double{setup.params.spacing}, 3);
+  const auto take = [&](FlowReading& reading, uint32_t particles) { reading = {particles, particles * volume}; };
+  for (size_t k = 0; k < emitted.size(); ++k)
+    if (EmitterRecord r{}; read(emitters.subspan(std::min(k * sizeof r, emitters.size())), r)) take(emitted[k], r.emitted);
+  for (size_t k = 0; k < drained.size(); ++k)
+    if (DrainRecord r{}; read(drains.subspan(std::min(k * sizeof r, drains.size())), r)) take(drained[k], r.drained);
+}
+
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   const Executed done{executed_.substeps - executedBefore_.substeps, executed_.iterations - executedBefore_.iterations,
                       executed_.builds - executedBefore_.builds, executed_.noiseDampings - executedBefore_.noiseDampings};
@@ -93,6 +104,11 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   return all;
 }
 
+FluidLedger FluidImpl::ledgerOf(uint32_t particles, uint32_t inactive) const {
+  if (setup.removes) return {ledger.filled, ledger.emitted, ledger.drained, ledger.left, ledger.inactive};
+  return {.filled = particles, .inactive = inactive};
+}
+
 void FluidImpl::poll() const {
   while (!pending_.empty()) {
     FluidControl control{};
@@ -122,13 +138,18 @@ void FluidImpl::poll() const {
     if (!setup.bodies.empty()) takeBodies(pending.graph.lock()->data(pending.bodies));
     if (setup.loads) takeLoads(pending.graph.lock()->data(pending.loads));
     if (!pressures.empty()) takePressures(pending.graph.lock()->data(pending.pressures));
+    if (setup.removes) {
+      const auto graph = pending.graph.lock();
+      const auto some = [&](bool has, Ticket ticket) { return has ? graph->data(ticket) : std::span<const std::byte>(); };
+      takeFlows(graph->data(pending.flow), some(!setup.emitters.empty(), pending.emitters), some(!setup.drains.empty(), pending.drains));
+    }
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
       const MeasurePartial& m = result.sums;
       const double n = std::max(control.count - m.inactive, 1u), mass = setup.params.particleMass;
       FluidStats s;
       s.time_s = progress.time_s;
-      s.particles = control.count;
+      s.particles = setup.removes ? control.count - m.inactive : control.count;
       s.substeps = control.substeps;
       s.iterations = control.iterations;
       s.timeDropped_s = control.timeDropped;
@@ -148,7 +169,9 @@ void FluidImpl::poll() const {
       if (!bodyRecords.empty()) s.bodies = figuresOf(bodyRecords, origin, gravity);
       s.maxSpeed = m.speedMax;
       s.nonFinite = sums.nonFinite;
-      s.outside = m.outside;
+      s.outside = setup.removes ? m.outside - m.inactive : m.outside;  // inactive ones are about to be removed
+      s.ledger = ledgerOf(control.count, m.inactive);
+      s.emitterBlocked_s = double{ledger.blockedHigh} + ledger.blockedLow;
       s.neighborOverflow = sums.overflow;
       s.loopBoundHits = sums.boundHits;
       s.listBuilds = control.builds;

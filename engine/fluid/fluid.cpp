@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/words.hpp"
+#include "fluid/flows.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "fluid/room.hpp"
 #include "fluid/snapshot.hpp"
@@ -49,7 +50,8 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const ParticleSet& particles = *desc.particles;
   Scene scene = *desc.scene;
   if (particles.spacing > 0) scene.fluid.spacing = particles.spacing;
-  const uint64_t n = particles.positions.size(), capacity = std::max<uint64_t>({desc.capacity, n, uint64_t{bodyCount(scene) > 0}});
+  const uint64_t n = particles.positions.size(), capacity = std::max<uint64_t>({desc.capacity > 0 ? desc.capacity : capacityOf(scene, n), n,
+                                                                                uint64_t{bodyCount(scene) > 0 || removes(scene)}});
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, capacity);
@@ -84,6 +86,8 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->capacity = static_cast<uint32_t>(capacity);
   impl->count = static_cast<uint32_t>(desc.snapshot ? desc.snapshot->id.size() : n);
   impl->origin = particles.origin;
+  impl->emitted.resize(impl->setup.emitters.size());
+  impl->drained.resize(impl->setup.drains.size());
   impl->bodyRecords = impl->setup.bodies;
   impl->bodyMotions.resize(impl->bodyRecords.size());
   impl->takeBodies(std::as_bytes(std::span(impl->setup.bodies)));
@@ -113,12 +117,12 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
   assert(chunks_.size() <= kMaxListChunks);  // checkRoom()
-  const uint64_t maxTexels = std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(setup.grid.cells() + 1),
+  const uint64_t maxTexels = std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(keyRange(setup) + 1),
                                        uint64_t{setup.tables.size() / 4}, uint64_t{setup.meshWords.size()}});
   texel_ = !storageReads && usesTexelReads(device, maxTexels);
 
   auto sort = KeySort::create(
-      device, {.count = capacity, .keyRange = setup.grid.cells(), .start = true, .storageReads = storageReads, .fusedEnds = true});
+      device, {.count = capacity, .keyRange = keyRange(setup), .start = true, .storageReads = storageReads, .fusedEnds = true});
   if (!sort) return sort.error();
   sort_ = std::move(*sort);
 

@@ -54,6 +54,16 @@ std::span<const PressureReading> Fluid::pressures() const {
   return impl_->pressures;
 }
 
+std::span<const FlowReading> Fluid::emitted() const {
+  impl_->poll();
+  return impl_->emitted;
+}
+
+std::span<const FlowReading> Fluid::drained() const {
+  impl_->poll();
+  return impl_->drained;
+}
+
 std::span<const SolidLoad> Fluid::solidLoads() const {
   impl_->poll();
   return impl_->solidLoads;

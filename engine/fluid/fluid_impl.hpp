@@ -59,9 +59,11 @@ class FluidImpl {
   FluidState present(Graph& graph) const;
   void poll() const;
   std::vector<FluidPassRuns> passRuns() const;
-  void takeBodies(std::span<const std::byte> records) const;     ///< BodyRecords
-  void takePressures(std::span<const std::byte> records) const;  ///< PressureProbeRecords
-  void takeLoads(std::span<const std::byte> records) const;      ///< SolidLoadRecords
+  FluidLedger ledgerOf(uint32_t particles, uint32_t inactive) const;  ///< of a scene in which none come or go: those there are
+  void takeBodies(std::span<const std::byte> records) const;          ///< BodyRecords
+  void takePressures(std::span<const std::byte> records) const;       ///< PressureProbeRecords
+  void takeLoads(std::span<const std::byte> records) const;           ///< SolidLoadRecords
+  void takeFlows(std::span<const std::byte> flow, std::span<const std::byte> emitters, std::span<const std::byte> drains) const;
   std::span<const Chunk> chunks() const { return chunks_; }
   const Buffer& buffer(FluidArray array, uint32_t chunk = 0) const { return slot(slotOf(array, chunk)); }
   const Buffer& slot(size_t slot) const { return buffers_[slot]; }
@@ -76,8 +78,10 @@ class FluidImpl {
   mutable FluidProgress progress;
   mutable std::vector<SolidLoad> solidLoads;
   mutable std::vector<PressureReading> pressures;
-  mutable std::vector<BodyRecord> bodyRecords;  ///< of the last finished frame
-  mutable std::vector<BodyMotion> bodyMotions;  ///< likewise
+  mutable FlowRecord ledger{};                        ///< of the last finished frame
+  mutable std::vector<FlowReading> emitted, drained;  ///< likewise
+  mutable std::vector<BodyRecord> bodyRecords;        ///< of the last finished frame
+  mutable std::vector<BodyMotion> bodyMotions;        ///< likewise
 
  private:
   /// What was recorded, since the start, of what the device switches on and off.
@@ -92,11 +96,11 @@ class FluidImpl {
   };
 
   struct Pending {
-    std::weak_ptr<GraphImpl> graph;
-    Ticket control, sums, measure, loads, bodies, pressures;
-    bool measured;
-    bool uploads;  ///< the start state has been copied once this frame has finished
-    Recorded recorded;
+    std::weak_ptr<GraphImpl> graph = {};
+    Ticket control = {}, sums = {}, measure = {}, loads = {}, bodies = {}, pressures = {}, flow = {}, emitters = {}, drains = {};
+    bool measured = false;
+    bool uploads = false;  ///< the start state has been copied once this frame has finished
+    Recorded recorded = {};
   };
 
   /// An advance that moves driven solids, and where they were before it.
@@ -118,6 +122,8 @@ class FluidImpl {
   void stageScene();
   void stageStart(const ParticleSet& particles, bool settle);
   void stageSnapshot(const FluidSnapshot& snapshot);
+  void stageFlows();
+  void resumeFlows(const FluidSnapshot& snapshot);
   void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities);
   // host_input.cpp
   void declareUpload(Graph& graph);

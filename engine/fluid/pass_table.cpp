@@ -8,6 +8,8 @@ bool moves(const FluidSetup& s) { return !s.keyframes.empty(); }
 bool bodies(const FluidSetup& s) { return !s.bodies.empty(); }
 bool loads(const FluidSetup& s) { return s.loads; }
 bool probesPressure(const FluidSetup& s) { return !s.pressureProbes.empty(); }
+bool emits(const FluidSetup& s) { return !s.emitters.empty(); }
+bool drains(const FluidSetup& s) { return !s.drains.empty() || s.params.openRemoves != 0; }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
 bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
 bool noSlip(const FluidSetup& s) { return s.noSlipSolids; }
@@ -23,6 +25,7 @@ bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) &&
 
 constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no solid moves"}, kBodies{bodies, "no bodies"},
     kLoads{loads, "no loads asked for, and no bodies"}, kProbesPressure{probesPressure, "no probes of pressure"},
+    kEmits{emits, "no emitters"}, kDrainsFluid{drains, "no drains, and no open sides that remove"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
     kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"},
     kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
@@ -35,10 +38,12 @@ constexpr std::array<S, 2> kEnd{S::Correct}, kEndOrDamped{S::Correct, S::NoiseDa
     kSolve{S::Density, S::Iterate};
 
 constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
+    {P::PlanEmission, "plan emission", "fluid/plan_emission", E::One, {}, {emits}},
     {P::Begin, "begin", "fluid/begin"},
     {P::Predict, "predict", "fluid/predict", E::Particles, {S::Predict}},
     {P::PredictFirstAtSolids, "predict first at solids", "fluid/predict", E::NearSolids, {S::Predict}, {solids}},
 
+    {P::Emit, "emit", "fluid/emit", E::Births, kRebuild, kEmits},
     {P::Keys, "keys", "fluid/keys", E::Keys, kRebuild, kAlways, {.constant = {"REBUILDS", true}}},
     {P::Reorder, "reorder", "fluid/reorder", E::Particles, kRebuild},
     {P::BuildList, "build list", "fluid/build", E::Chunks, kRebuild, kAlways, kClusters},
@@ -77,6 +82,8 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Drag, "drag", "fluid/drag", E::Particles, kEnd, kDrags, kForce},
     {P::PredictAfterForces, "predict after forces", "fluid/predict", E::Particles, kEndOrDamped, {forcesOrDamping}},
     {P::PredictAtSolids, "predict at solids", "fluid/predict", E::NearSolids, kEndOrDamped, {forcesOrDampingAtSolids}},
+    {P::KeepMouthsFree, "keep mouths free", "fluid/mouths", E::Particles, kEnd, {emits}},
+    {P::Drain, "drain", "fluid/drain", E::Particles, kEnd, kDrainsFluid},
 
     {P::MeasureDisplaced, "measure solids", "fluid/solids", E::NearSolids, kFigures, {solids}},
     {P::MeasureKeys, "measure keys", "fluid/keys", E::Keys, kFigures},

@@ -15,10 +15,12 @@
 namespace rill {
 
 enum class FluidPass : uint8_t {
+  PlanEmission,
   Begin,
   Predict,
   PredictFirstAtSolids,
   // A rebuild.
+  Emit,
   Keys,
   Reorder,
   BuildList,
@@ -54,6 +56,8 @@ enum class FluidPass : uint8_t {
   Drag,
   PredictAfterForces,
   PredictAtSolids,
+  KeepMouthsFree,
+  Drain,
   // Figures.
   MeasureDisplaced,
   MeasureKeys,
@@ -92,6 +96,7 @@ enum class Extent : uint8_t {
   Bodies,      ///< rigid bodies
   ContactPoints,   ///< their sample points
   PressureProbes,  ///< a workgroup each
+  Births,          ///< particles that emitters may add at a rebuild
   NearGather       ///< the same over their neighbors, a dispatch for each buffer of the list, in the variant that can walk the grid
 };
 

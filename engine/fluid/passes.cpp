@@ -26,6 +26,7 @@ void FluidImpl::importAll(Graph& graph) {
 }
 
 void FluidImpl::declareBegin(Graph& graph, double advance, bool queued, size_t pulls) {
+  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{static_cast<float>(advance), 0});
   declare(graph, FluidPass::Begin, Start::Always,
           BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued, static_cast<uint32_t>(pulls)});
   if (!(advance > 0)) return;
@@ -37,6 +38,8 @@ void FluidImpl::declareRebuild(Graph& graph) {
   using enum FluidArray;
   ++recording_.sorts;
   beginSection();
+  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{0, 1});
+  declare(graph, FluidPass::Emit, Start::Rebuild);
   const Gate gate{ref(Commands), sortCommand_};
   const SortTargets targets{.order = {}, .start = ref(CellStart), .keys = {}};
   sortKeys(graph, FluidPass::Keys, Start::Rebuild, Prediction, targets, &gate);
@@ -154,7 +157,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
-  Pending pending{implOf(graph).weakSelf(), {}, {}, {}, {}, {}, {}, false, uploads, {}};
+  Pending pending{.graph = implOf(graph).weakSelf(), .uploads = uploads};
   if (step.stats)
     declareMeasure(graph, pending);
   else
@@ -164,6 +167,9 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (setup.loads) pending.loads = graph.readback(ref(FluidArray::SolidLoads));
   if (!setup.bodies.empty()) pending.bodies = graph.readback(ref(FluidArray::Bodies));
   if (!setup.pressureProbes.empty()) pending.pressures = graph.readback(ref(FluidArray::PressureProbes));
+  if (setup.removes) pending.flow = graph.readback(ref(FluidArray::Flow));
+  if (!setup.emitters.empty()) pending.emitters = graph.readback(ref(FluidArray::Emitters));
+  if (!setup.drains.empty()) pending.drains = graph.readback(ref(FluidArray::Drains));
   pending.recorded = recording_;
   pending_.push_back(pending);
   while (pending_.size() > 8) pending_.pop_front();

@@ -45,6 +45,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"BODIES", !setup.bodies.empty()},
           {"NO_SLIP_WALLS", setup.noSlipWalls},
           {"NO_SLIP_SOLIDS", setup.noSlipSolids},
+          {"REMOVES", setup.removes},
           {"FORCES", hasForces(setup)},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

@@ -7,6 +7,7 @@
 
 #include "core/words.hpp"
 #include "fluid/boundaries.hpp"
+#include "fluid/flows.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/stability_limits.hpp"
 #include "shape/pose.hpp"
@@ -296,6 +297,10 @@ bool measuresLoads(const Scene& scene) {
   return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); }) || bodyCount(scene) > 0;
 }
 
+bool removesAtSides(const Scene& scene) { return scene.domain && scene.domain->open_removes && scene.domain->open != 0; }
+
+bool removes(const Scene& scene) { return !scene.emitters.empty() || !scene.drains.empty() || removesAtSides(scene); }
+
 size_t pressureProbeCount(const Scene& scene) {
   return static_cast<size_t>(std::ranges::count_if(scene.probes, [](const Probe& probe) { return probe.pressure.has_value(); }));
 }
@@ -370,6 +375,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.contactPoints = static_cast<uint32_t>(setup.contactPoints.size());
   p.bodySpeed = f(fastestBody(scene));
   addPressureProbes(scene, kernel, origin, setup);
+  addFlows(scene, origin, setup);
+  setup.removes = removes(scene);
   p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
   setViscosity(scene, kernel, setup);
   setNoSlip(scene, kernel, setup);

@@ -1,6 +1,7 @@
 #pragma once
 // From a scene to the numbers and tables that the shaders read. No Vulkan: what a run needs is known, and refused, before anything is
 // allocated.
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "fluid/stability_limits.hpp"
 #include "rill/expected.hpp"
 #include "rill/fluid.hpp"
+#include "shared/flow_records.h"
 #include "shared/fluid_records.h"
 #include "shared/pressure_probe.h"
 
@@ -51,6 +53,9 @@ struct FluidSetup {
   std::vector<BodyRecord> bodies;                        ///< likewise
   std::vector<ContactPointRecord> contactPoints;         ///< of the bodies, in their order
   std::vector<PressureProbeRecord> pressureProbes;       ///< in the order of the scene's probes
+  std::vector<EmitterRecord> emitters;                   ///< in the order of the scene's
+  std::vector<std::array<float, 2>> mouthPoints;         ///< of their layers, m
+  std::vector<DrainRecord> drains;                       ///< in the order of the scene's
   std::vector<uint32_t> meshWords;                       ///< the fields of all meshes (mesh_field.h)
   std::vector<float> keyframes;                          ///< KeyframeRecords
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
@@ -71,6 +76,7 @@ struct FluidSetup {
   bool held = false;                      ///< walls or solids can hold the fluid up
   bool thin = false;                      ///< walls that face each other can both be near a particle
   bool movingSolids = false;              ///< by keyframes, by the host, or bodies
+  bool removes = false;                   ///< particles come and go: emitters, drains or open sides that remove
   bool loads = false;                     ///< loads on solids are measured
   bool mergesPasses = false;              ///< see FluidDesc::mergePasses
   bool warm = false;                      ///< there is a warm start: multipliers and accelerations are kept
@@ -99,6 +105,15 @@ bool startsWarm(const Scene& scene);
 
 /// Whether a probe or a body needs loads on solids.
 bool measuresLoads(const Scene& scene);
+
+/// Whether particles leave for good through open sides of the domain.
+bool removesAtSides(const Scene& scene);
+
+/// Whether particles come and go while the scene runs.
+bool removes(const Scene& scene);
+
+/// Keys of the sort: the cells, and one behind them for particles that are to be removed.
+inline uint64_t keyRange(const FluidSetup& setup) { return setup.grid.cells() + uint64_t{setup.removes}; }
 
 /// Number of probes of pressure.
 size_t pressureProbeCount(const Scene& scene);

@@ -52,6 +52,7 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   if (auto right = checkLength("slips", s.slips.size(), uint64_t{kSlipWords} * shape.contactPoints); !right) return right;
   if (!s.loads.empty())  // they may be of no use to the scene that goes on
     if (auto right = checkLength("loads", s.loads.size(), uint64_t{kLoadNumbers} * shape.solidCount); !right) return right;
+  if (auto right = checkLength("flows", s.flows.size(), shape.flowWords); !right) return right;
   if (s.pressures.size() % kPressureProbeWords != 0)  // of other probes they are of no use
     return wrong("pressures has " + std::to_string(s.pressures.size()) + " entries; expected a multiple of " +
                  std::to_string(kPressureProbeWords));
@@ -132,6 +133,30 @@ Expected<void> checkPressures(const FluidSnapshot& s) {
   return {};
 }
 
+/// Whether an emitter's state can be gone on with: shaders place particles by it.
+bool valid(const EmitterRecord& e) {
+  for (const float number : {e.centerX, e.centerY, e.centerZ, e.speed, e.rate, e.normalX, e.normalY, e.normalZ, e.acrossX, e.acrossY,
+                             e.acrossZ, e.upX, e.upY, e.upZ, e.halfAcross, e.halfUp, e.doneHigh, e.doneLow, e.late})
+    if (!(std::abs(number) < 1e15F)) return false;
+  return e.speed >= 0 && e.rate >= 0 && e.late >= 0 && e.due <= kMaxDueLayers;
+}
+
+Expected<void> checkFlows(const FluidSnapshot& s, const SnapshotShape& shape) {
+  if (s.flows.empty()) return {};
+  const std::span<const uint32_t> words(s.flows);
+  constexpr size_t kFlowWords = sizeof(FlowRecord) / 4, kEmitterWords = sizeof(EmitterRecord) / 4;
+  const auto ledger = record<FlowRecord>(words);
+  if (!std::isfinite(ledger.blockedHigh) || !std::isfinite(ledger.blockedLow))
+    return wrong("flows has a blocked time that is not finite; expected a finite number (s)");
+  if (ledger.nextId > kMaxIds || (!s.id.empty() && *std::ranges::max_element(s.id) >= ledger.nextId))
+    return wrong("the id of its next particle is " + std::to_string(ledger.nextId) + "; expected one above all ids, at most " +
+                 std::to_string(kMaxIds));
+  for (size_t k = 0; k < shape.emitterCount; ++k)
+    if (!valid(record<EmitterRecord>(words.subspan(kFlowWords + k * kEmitterWords))))
+      return wrong(elementPath("emitters", k) + " has a state that is not valid; expected finite numbers of at least 0");
+  return {};
+}
+
 /// The first neighbor names an image if any does; images come in order.
 bool imagesInOrder(std::span<const uint32_t> neighbors) {
   uint32_t last = 0;
@@ -188,16 +213,16 @@ bool validPhase(const FluidControl& control, const SnapshotShape& shape) {
 
 }  // namespace
 
+uint64_t flowWords(const FluidSetup& setup) {
+  if (!setup.removes) return 0;
+  return (sizeof(FlowRecord) + setup.emitters.size() * sizeof(EmitterRecord) + setup.drains.size() * sizeof(DrainRecord)) / 4;
+}
+
 SnapshotShape snapshotShape(const FluidSetup& setup) {
-  return {setup.params.capacity,
-          setup.params.solidCount,
-          setup.params.bodyCount,
-          setup.params.contactPoints,
-          setup.params.listCapacity,
-          setup.grid.cells(),
-          setup.params.initialPressureIterations,
-          setup.walls && !setup.thin,
-          setup.movingSolids};
+  return {setup.params.capacity,      setup.params.solidCount,   setup.params.bodyCount,
+          setup.params.contactPoints, setup.params.listCapacity, setup.params.emitterCount,
+          flowWords(setup),           setup.grid.cells(),        setup.params.initialPressureIterations,
+          setup.walls && !setup.thin, setup.movingSolids};
 }
 
 bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).listState == kListValid; }
@@ -222,6 +247,7 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
   const bool warm = !s.warmStart.empty();
   auto sums = record<FluidSums>(s.sums);
   uint32_t next = s.id.empty() ? 0 : *std::max_element(s.id.begin(), s.id.end()) + 1;
+  if (!s.flows.empty()) next = record<FlowRecord>(s.flows).nextId;  // an id is never given twice
   for (size_t k = 0; k < positions.size(); ++k) {
     s.id.push_back(next++);
     s.position.push_back(positions[k]);
@@ -237,6 +263,12 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
   auto control = record<FluidControl>(s.control);
   control.count = static_cast<uint32_t>(s.id.size());
   s.control = wordsOf(control);
+  if (s.flows.empty()) return;
+  auto ledger = record<FlowRecord>(s.flows);
+  ledger.filled += static_cast<uint32_t>(positions.size());
+  ledger.nextId = next;
+  const std::vector<uint32_t> words = wordsOf(ledger);
+  std::ranges::copy(words, s.flows.begin());
 }
 
 void replaceSolids(FluidSnapshot& s, std::span<const Solid> before, std::span<const Solid> after, std::span<const Pose> poses,
@@ -299,6 +331,7 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (auto right = checkNear(snapshot, sums, shape); !right) return right;
   if (auto right = checkBodies(snapshot); !right) return right;
   if (auto right = checkPressures(snapshot); !right) return right;
+  if (auto right = checkFlows(snapshot, shape); !right) return right;
   return checkNeighbors(snapshot, sums, shape);
 }
 

@@ -9,19 +9,20 @@
 
 namespace rill {
 
-/// Ids are less: particles carry them as floats while they are sorted.
-inline constexpr uint32_t kMaxIds = 0x7F000000;
-
 /// What a snapshot must fit.
 struct SnapshotShape {
   uint32_t capacity = 0;  ///< particles at most
   uint32_t solidCount = 0, bodyCount = 0, contactPoints = 0;
   uint32_t listCapacity = 0;
+  uint32_t emitterCount = 0;
+  uint64_t flowWords = 0;                  ///< of FluidSnapshot::flows
   uint64_t cells = 0;                      ///< of the grid
   uint32_t initialPressureIterations = 0;  ///< FluidParams::initialPressureIterations
   bool segments = false, movingSolids = false;
 };
 SnapshotShape snapshotShape(const FluidSetup& setup);
+/// Entries of FluidSnapshot::flows.
+uint64_t flowWords(const FluidSetup& setup);
 
 /// BadInput, naming the array, for lengths that do not fit and for indices out of range, which shaders would read by. Any float is valid.
 Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape);

@@ -43,7 +43,7 @@ void SnapshotReader::declare(Graph& graph) {
   const uint32_t part = parts_[next_];
   if (part != kRecords) return read(part);
   for (FluidArray array : {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads, FluidArray::Bodies,
-                           FluidArray::Slips, FluidArray::PressureProbes})
+                           FluidArray::Slips, FluidArray::PressureProbes, FluidArray::Flow, FluidArray::Emitters, FluidArray::Drains})
     read(slotOf(array));
 }
 
@@ -106,6 +106,15 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   if (fluid_.setup.params.bodyCount > 0) snapshot_.bodies = records<uint32_t>(data[4], fluid_.setup.params.bodyCount * kBodyWords);
   if (fluid_.setup.params.bodyCount > 0) snapshot_.slips = records<uint32_t>(data[5], fluid_.setup.params.contactPoints * kSlipWords);
   snapshot_.pressures = records<uint32_t>(data[6], fluid_.setup.pressureProbes.size() * kPressureProbeWords);
+  const auto addFlows = [&](std::span<const std::byte> from, size_t bytes) {
+    const auto words = records<uint32_t>(from, bytes / 4);
+    snapshot_.flows.insert(snapshot_.flows.end(), words.begin(), words.end());
+  };
+  if (fluid_.setup.removes) {
+    addFlows(data[7], sizeof(FlowRecord));
+    addFlows(data[8], fluid_.setup.emitters.size() * sizeof(EmitterRecord));
+    addFlows(data[9], fluid_.setup.drains.size() * sizeof(DrainRecord));
+  }
   if (!fluid_.setup.movingSolids) return;
   for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount)) appendPose(r.pose, snapshot_.solids);
 }

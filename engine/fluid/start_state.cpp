@@ -7,6 +7,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "fluid/flows.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "fluid/snapshot.hpp"
@@ -49,11 +50,19 @@ void FluidImpl::stageScene() {
   staging_->add(slotOf(FluidArray::Table), setup.tables.data(), setup.tables.size() * 4);
   staging_->add(slotOf(FluidArray::MeshWords), setup.meshWords.data(), setup.meshWords.size() * 4);
   staging_->add(slotOf(FluidArray::ContactPoints), setup.contactPoints.data(), setup.contactPoints.size() * sizeof(ContactPointRecord));
+  staging_->add(slotOf(FluidArray::MouthPoints), setup.mouthPoints.data(), setup.mouthPoints.size() * sizeof setup.mouthPoints[0]);
   staging_->add(slotOf(FluidArray::Keyframes), setup.keyframes.data(), setup.keyframes.size() * 4);
   staging_->clear(slotOf(FluidArray::NearTangential));
   staging_->clear(slotOf(FluidArray::SolidSums));
   staging_->clear(slotOf(FluidArray::Commands));
   staging_->clear(slotOf(FluidArray::DensityCommands));
+}
+
+void FluidImpl::stageFlows() {
+  if (!setup.removes) return;
+  staging_->add(slotOf(FluidArray::Flow), &ledger, sizeof ledger);
+  staging_->add(slotOf(FluidArray::Emitters), setup.emitters.data(), setup.emitters.size() * sizeof(EmitterRecord));
+  staging_->add(slotOf(FluidArray::Drains), setup.drains.data(), setup.drains.size() * sizeof(DrainRecord));
 }
 
 void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities) {
@@ -96,6 +105,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   control.phaseLeft = settle ? kSettleSubsteps : 0;
   control.head = static_cast<float>(setup.head);
   control.desiredStep = static_cast<float>(setup.firstStep);
+  control.emissionWait = kNever;
 
   stageParticles(std::move(positions), std::move(velocities));
   staging_->add(slotOf(FluidArray::Control), sizeof control, bytesOf(std::vector{control}));
@@ -108,6 +118,31 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->add(slotOf(FluidArray::Id), id.size() * 4, bytesOf(id));
   staging_->clear(slotOf(FluidArray::Warm));
   staging_->clear(slotOf(FluidArray::WarmAcceleration));
+  ledger = firstLedger(count, sums.nonFinite);
+  stageFlows();
+}
+
+void FluidImpl::resumeFlows(const FluidSnapshot& s) {
+  const auto bytes = std::as_bytes(std::span(s.flows));
+  std::memcpy(&ledger, bytes.data(), sizeof ledger);
+  size_t at = sizeof ledger;
+  const auto next = [&](auto& saved) {
+    std::memcpy(&saved, bytes.data() + at, sizeof saved);
+    at += sizeof saved;
+  };
+  for (EmitterRecord& emitter : setup.emitters) {
+    EmitterRecord saved;
+    next(saved);
+    saved.from = emitter.from, saved.until = emitter.until;
+    saved.firstPoint = emitter.firstPoint, saved.points = emitter.points, saved.round_ = emitter.round_;
+    emitter = saved;
+  }
+  for (DrainRecord& drain : setup.drains) {
+    DrainRecord saved;
+    next(saved);
+    drain.drained = saved.drained;
+  }
+  takeFlows(bytes, std::as_bytes(std::span(setup.emitters)), std::as_bytes(std::span(setup.drains)));
 }
 
 // `snapshot` has been checked; it lives until the staging is made.
@@ -143,6 +178,8 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   }
   takePressures(std::as_bytes(std::span(probes)));
   staging_->add(slotOf(FluidArray::PressureProbes), probes.size() * sizeof(PressureProbeRecord), bytesOf(probes));
+  if (setup.removes) resumeFlows(s);
+  stageFlows();
   takeLoads(std::as_bytes(std::span(s.loads)));
   if (setup.loads && !s.loads.empty())
     staging_->add(slotOf(FluidArray::SolidLoads), s.loads.data(), s.loads.size() * sizeof s.loads[0]);
@@ -170,7 +207,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   if (!hasNeighbors(s)) return;
   if (!s.cell.empty()) {
     staging_->add(slotOf(FluidArray::Cell), s.cell.data(), s.cell.size() * 4);
-    std::vector<uint32_t> start(setup.grid.cells() + 1);
+    std::vector<uint32_t> start(keyRange(setup) + 1);
     cellStarts(s.cell, start);
     staging_->add(slotOf(FluidArray::CellStart), start.size() * 4, bytesOf(start));
   }

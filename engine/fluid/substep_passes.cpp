@@ -36,6 +36,8 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
   declare(graph, FluidPass::MoveBodies, Start::Correct, LoadPush{1});
   declare(graph, FluidPass::Pressure, Start::Correct);
   declareForces(graph, first);
+  declare(graph, FluidPass::KeepMouthsFree, Start::Correct);
+  declare(graph, FluidPass::Drain, Start::Correct);
 }
 
 // Predicts bodies from velocity, gravity and warm start, then solves their contacts.

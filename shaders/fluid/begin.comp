@@ -35,7 +35,7 @@ void main() {
   control.pulls = push.pulls;
   gravityAt();
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
-  control.speed = uintBitsToFloat(sums.speedMax);
+  control.speed = max(uintBitsToFloat(sums.speedMax), control.emitterSpeed);
   control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
   if (control.nextRelaxation == 0.0) setGains();  // the first advance: from then on each substep sets those of the next
   control.desiredStep = plannedStep(control.desiredStep, cflStep(acceleration, control.head));
@@ -50,6 +50,7 @@ void main() {
     float nextTravel = control.travel + (fastest + acceleration * control.nextStep) * control.nextStep;
     if (control.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && control.listState == kListValid)
       control.listState = kListDue;
+    if (control.emissionWait <= 0.0 && control.listState == kListValid) control.listState = kListDue;
   }
   control.running = going && control.listState == kListValid ? 1u : 0u;
   control.again = 0u;

@@ -72,7 +72,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
   } else if (first) {
     control.step = control.nextStep;
     control.error = error;
-    control.speed = max(uintBitsToFloat(sums.speedMax), 0.0);
+    control.speed = max(uintBitsToFloat(sums.speedMax), control.emitterSpeed);
     sums.speedMax = 0u;
     control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
     sums.bodySpeed = 0u;
@@ -95,7 +95,8 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     }
     control.nextStep = control.timeLeft > 0.0 ? fittedStep(control.timeLeft, control.desiredStep) : control.desiredStep;
     float nextTravel = control.travel + (control.speed + solidSpeed + acceleration * control.nextStep) * control.nextStep;
-    if (nextTravel > params.travelLimit) control.listState = kListDue;
+    control.emissionWait -= control.step;
+    if (nextTravel > params.travelLimit || control.emissionWait <= 0.0) control.listState = kListDue;
   }
 
   if (first && control.noiseDamping > 0.0) control.executedNoiseDampings += 1u;

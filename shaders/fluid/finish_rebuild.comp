@@ -7,9 +7,11 @@ layout(binding = 0) uniform ParamsBlock { FluidParams params; };
 layout(std430, binding = 2) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 3) readonly buffer ShapeBlock { uint shapes[]; };
 layout(std430, binding = 4) buffer CommandBlock { uint commands[]; };
+layout(std430, binding = 5) readonly buffer CellStartBlock { uint cellStart[]; };
 #ifdef MERGED
-layout(std430, binding = 5) writeonly buffer DensityCommandBlock { uint densityCommands[]; };
+layout(std430, binding = 6) writeonly buffer DensityCommandBlock { uint densityCommands[]; };
 #endif
+#include "fluid/constants.glsl"
 #include "fluid/stability.glsl"
 #include "fluid/dispatch_commands.glsl"
 #ifdef MERGED
@@ -34,6 +36,7 @@ void main() {
   control.builds += 1u;
   control.executedBuilds += 1u;
   control.running = control.timeLeft > 0.0 ? 1u : 0u;
+  if (REMOVES) control.count = cellStart[params.gridSizeX * params.gridSizeY * params.gridSizeZ];  // inactive particles come last
   FluidSums s = sums;
   followColumn(columnHead(s));
   switchCommands(kNoSubstep);  // the sort's own, too: another rebuild may be recorded behind this one

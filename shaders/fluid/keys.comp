@@ -34,7 +34,8 @@ void main() {
   if (i >= control.count && i < params.capacity) key[i] = kNoKey;
 #endif
   if (i >= control.count) return;
-  uint cell = cellKey(cellOf(placeAt(i).xyz));
+  vec3 x = placeAt(i).xyz;
+  uint cell = REMOVES && !isActive(x) ? params.gridSizeX * params.gridSizeY * params.gridSizeZ : cellKey(cellOf(x));  // last
   key[i] = cell;
 #ifdef COUNTED
   countKey(i, cell);

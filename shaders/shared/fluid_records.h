@@ -27,6 +27,7 @@ RILL_CONST uint kWindow = 32u;            // candidates that a grid walk looks a
 RILL_CONST uint kWalkBound = 32768u;
 RILL_CONST float kInactivePosition = 1.0e9f;        // m: position of inactive particles and of the dummy neighbor that pads the list
 RILL_CONST float kInactiveLimit = 5.0e8f;           // m: from this coordinate on a particle is inactive
+RILL_CONST uint kMaxIds = 0x7F000000u;          // ids are below: they travel among floats (number.glsl)
 RILL_CONST float kNoWall = 1.0e9f;        // m, a coordinate
 RILL_CONST float kMultiplierScale = 1024.0f;  // multipliers travel as halves in units of 1 / (restGradient * this)
 
@@ -64,6 +65,8 @@ struct FluidParams {
   uint bodyCount;         // solids that are rigid bodies
   uint contactPoints;     // of all bodies
   uint pressureProbes;
+  uint emitterCount, drainCount;
+  uint openRemoves;       // sides, as bits of SideMask, through which particles leave for good
   float pressureDensity;  // kg/m^3, that makes a pressure of a multiplier over the square of the step: see docs/notes/pressure.md
   float bodySpeed;        // m/s, the fastest point of a body at the start
   float separationSpeed;  // m/s, at which bodies that overlap come apart, at most
@@ -180,6 +183,8 @@ struct FluidControl {
   float solidSpeed;    // m/s, the fastest solid of the advance, but for bodies
   float bodySpeed;     // m/s, the fastest point of a body
   uint pulls;          // springs of the host that pull bodies in the advance
+  float emitterSpeed;  // m/s, of the fastest emitter of the advance
+  float emissionWait;  // s until a layer is so late that the list is rebuilt for it; kNever without emitters
   // Since the start, what prepares it too: for the host, which takes differences. The noise damping
   // pass runs in the first substeps of blocks.
   uint executedSubsteps, executedIterations, executedBuilds, executedNoiseDampings;

@@ -62,6 +62,21 @@ struct PressureReading {
   bool covered = false;  ///< the point was inside a solid at the end
 };
 
+/// What has gone through an emitter or a drain since the start.
+struct FlowReading {
+  uint64_t particles = 0;
+  double volume = 0;  ///< m^3: particles times spacing^3
+};
+
+/// Where the particles are: filled + emitted = present + drained + left + inactive, always.
+struct FluidLedger {
+  uint64_t filled = 0;    ///< at the start
+  uint64_t emitted = 0;   ///< by emitters
+  uint64_t drained = 0;   ///< removed by drains
+  uint64_t left = 0;      ///< removed beyond open sides (Domain::open_removes)
+  uint64_t inactive = 0;  ///< not simulated: of the start, with a value that was not finite
+};
+
 /// Where a body is and how fast it moves, in the scene.
 struct BodyMotion {
   uint32_t solid = 0;                   ///< index among the scene's solids
@@ -165,11 +180,13 @@ struct BodyFigures {
 
 /// Statistics at one time. Sums are evaluated in a fixed order, so they are deterministic.
 struct FluidStats {
-  double time_s = 0;  ///< simulated time
-  uint64_t particles = 0;
-  uint32_t substeps = 0;                                                  ///< in the last advance
-  uint32_t iterations = 0;                                                ///< Jacobi iterations in the last advance, summed over substeps
-  double timeDropped_s = 0;                                               ///< in the last advance
+  double time_s = 0;       ///< simulated time
+  uint64_t particles = 0;  ///< where particles come and go without inactive ones
+  FluidLedger ledger = {};
+  double emitterBlocked_s = 0;  ///< since the start, in which some emitter had no place for its particles
+  uint32_t substeps = 0;        ///< in the last advance
+  uint32_t iterations = 0;      ///< Jacobi iterations in the last advance, summed over substeps
+  double timeDropped_s = 0;     ///< in the last advance
   double densityErrorMean = 0, densityErrorP99 = 0, densityErrorMax = 0;  ///< max(rho / rho0 - 1, 0)
   double densitySignedMedian = 0;  ///< median of rho / rho0 - 1 over particles with a full neighborhood
   double kinetic_J = 0, potential_J = 0;
@@ -223,6 +240,11 @@ class RILL_API Fluid {
   /// At the scene's probes of pressure, in their order, after the last finished frame; before the first, zeros or those of the snapshot.
   /// Valid until the fluid is moved or destroyed; the next call that reads results may change the values.
   std::span<const PressureReading> pressures() const;
+
+  /// Of the scene's emitters, and of its drains, in their order, after the last finished frame. Valid until the fluid is moved or
+  /// destroyed; the next call that reads results may change the values.
+  std::span<const FlowReading> emitted() const;
+  std::span<const FlowReading> drained() const;
 
   /// Motion of the bodies, in the order of the solids, after the last finished frame. Valid until the fluid is moved or destroyed; the
   /// next call that reads results may change the values.

@@ -45,6 +45,9 @@ struct FluidSnapshot {
   std::vector<uint32_t> slips = {};      ///< SlipRecord of each contact point of the bodies, word by word
   std::vector<float> loads = {};         ///< SolidLoadRecord (solid_loads.h) of each solid, word by word; empty unless loads are measured
   std::vector<uint32_t> pressures = {};  ///< PressureProbeRecord (pressure_probe.h) of each probe of pressure, word by word
+  /// FlowRecord (flow_records.h), then EmitterRecord of each emitter and DrainRecord of each drain, word by word; empty if no particles
+  /// come or go.
+  std::vector<uint32_t> flows = {};
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Warm start; empty without one.
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for

@@ -1,0 +1,132 @@
+#include "fluid/flows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/vector_math.hpp"
+#include "fluid/numbers.hpp"
+
+namespace rill {
+namespace {
+
+Double3 unit(const Double3& v) { return along(Double3{}, 1 / length(v), v); }
+
+/// A unit vector across a unit vector.
+Double3 anyAcross(const Double3& v) { return unit(cross(std::abs(v.y) < 0.9 ? Double3{0, 1, 0} : Double3{0, 0, 1}, v)); }
+
+/// Points of a square lattice of pitch 1 inside a circle; `first`: of a point.
+std::vector<std::array<double, 2>> pointsInCircle(double radius, const std::array<double, 2>& first) {
+  std::vector<std::array<double, 2>> points;
+  const double steps = std::ceil(radius) + 1;
+  for (double j = -steps; j <= steps; ++j)
+    for (double i = -steps; i <= steps; ++i)
+      if (std::hypot(i + first[0], j + first[1]) < radius) points.push_back({i + first[0], j + first[1]});
+  return points;
+}
+
+// Of three ways to center the lattice, the one whose number of points is nearest to the area's. Its pitch is then scaled so that it is the
+// area's.
+void fillDisc(double radius, double spacing, MouthLattice& lattice) {
+  lattice.area = std::numbers::pi * radius * radius;
+  const double wanted = lattice.area / (spacing * spacing);
+  std::vector<std::array<double, 2>> best = {{0, 0}};
+  for (const std::array<double, 2>& first : {std::array{0.0, 0.0}, {0.5, 0.5}, {0.5, 0.0}}) {
+    std::vector<std::array<double, 2>> points = pointsInCircle(radius / spacing, first);
+    const auto off = [&](const auto& some) { return std::abs(static_cast<double>(some.size()) - wanted); };
+    if (!points.empty() && off(points) < off(best)) best = std::move(points);
+  }
+  const double pitch = std::sqrt(lattice.area / static_cast<double>(best.size()));
+  for (const auto& [x, y] : best) lattice.points.push_back({f(pitch * x), f(pitch * y)});
+}
+
+void fillRect(const std::pair<double, double>& size, double spacing, MouthLattice& lattice) {
+  lattice.area = size.first * size.second;
+  const double columns = std::max(1.0, std::round(size.first / spacing)), rows = std::max(1.0, std::round(size.second / spacing));
+  for (double j = 0; j < rows; ++j)
+    for (double i = 0; i < columns; ++i)
+      lattice.points.push_back({f(size.first * ((i + 0.5) / columns - 0.5)), f(size.second * ((j + 0.5) / rows - 0.5))});
+}
+
+float secondsOrNever(const std::optional<double>& time) { return time ? f(std::min(*time, double{kNever})) : kNever; }
+
+DrainRecord recordOf(const Drain& drain, const Double3& origin) {
+  DrainRecord r{};
+  const auto* sphere = std::get_if<SphereShape>(&drain.shape);
+  const auto* box = std::get_if<BoxShape>(&drain.shape);
+  const Double3 low = minus(sphere ? sphere->center : box->min, origin);
+  const Double3 high = sphere ? Double3{sphere->radius, 0, 0} : minus(box->max, origin);
+  r.lowX = f(low.x), r.lowY = f(low.y), r.lowZ = f(low.z);
+  r.highX = f(high.x), r.highY = f(high.y), r.highZ = f(high.z);
+  r.from = f(drain.from);
+  r.until = secondsOrNever(drain.until);
+  r.sphere = sphere ? 1 : 0;
+  return r;
+}
+
+}  // namespace
+
+MouthLattice mouthLattice(const Mouth& mouth, double spacing) {
+  MouthLattice lattice;
+  const auto* disc = std::get_if<DiscMouth>(&mouth);
+  const auto* rect = std::get_if<RectMouth>(&mouth);
+  lattice.center = disc ? disc->center : rect->center;
+  lattice.normal = unit(disc ? disc->normal : rect->normal);
+  lattice.across = disc ? anyAcross(lattice.normal) : unit(cross(lattice.normal, unit(rect->up)));
+  lattice.up = cross(lattice.across, lattice.normal);
+  lattice.half = disc ? std::pair{disc->radius, disc->radius} : std::pair{rect->size.first / 2, rect->size.second / 2};
+  if (disc)
+    fillDisc(disc->radius, spacing, lattice);
+  else
+    fillRect(rect->size, spacing, lattice);
+  lattice.thickness = static_cast<double>(lattice.points.size()) * spacing * spacing * spacing / lattice.area;
+  return lattice;
+}
+
+void setMouth(EmitterRecord& r, const MouthLattice& lattice, const Double3& origin, double speed) {
+  const Double3 center = minus(lattice.center, origin);
+  r.centerX = f(center.x), r.centerY = f(center.y), r.centerZ = f(center.z);
+  r.normalX = f(lattice.normal.x), r.normalY = f(lattice.normal.y), r.normalZ = f(lattice.normal.z);
+  r.acrossX = f(lattice.across.x), r.acrossY = f(lattice.across.y), r.acrossZ = f(lattice.across.z);
+  r.upX = f(lattice.up.x), r.upY = f(lattice.up.y), r.upZ = f(lattice.up.z);
+  r.halfAcross = f(lattice.half.first);
+  r.halfUp = f(lattice.half.second);
+  r.speed = f(speed);
+  r.rate = f(speed / lattice.thickness);
+}
+
+void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
+  for (const Emitter& emitter : scene.emitters) {
+    const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
+    EmitterRecord r{};
+    setMouth(r, lattice, origin, emitter.speed > 0 ? emitter.speed : emitter.flow / lattice.area);
+    r.from = f(emitter.from);
+    r.until = secondsOrNever(emitter.until);
+    r.firstPoint = static_cast<uint32_t>(setup.mouthPoints.size());
+    r.points = static_cast<uint32_t>(lattice.points.size());
+    r.round_ = std::holds_alternative<DiscMouth>(emitter.mouth) ? 1 : 0;
+    r.phase = kHalfLayer;
+    setup.mouthPoints.insert(setup.mouthPoints.end(), lattice.points.begin(), lattice.points.end());
+    setup.emitters.push_back(r);
+  }
+  for (const Drain& drain : scene.drains) setup.drains.push_back(recordOf(drain, origin));
+  setup.params.emitterCount = static_cast<uint32_t>(setup.emitters.size());
+  setup.params.drainCount = static_cast<uint32_t>(setup.drains.size());
+  setup.params.openRemoves = removesAtSides(scene) ? scene.domain->open : 0u;
+}
+
+uint64_t capacityOf(const Scene& scene, uint64_t filled) {
+  if (scene.fluid.capacity > 0) return scene.fluid.capacity;
+  double more = 0;
+  for (const Emitter& emitter : scene.emitters) {
+    const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
+    const double flow = emitter.flow > 0 ? emitter.flow : emitter.speed * lattice.area;
+    const double open = std::max(0.0, std::min(scene.duration, emitter.until.value_or(scene.duration)) - emitter.from);
+    more += std::ceil(flow * open / std::pow(scene.fluid.spacing, 3)) + double(lattice.points.size());
+  }
+  return filled + uint64_t(more);
+}
+
+FlowRecord firstLedger(uint32_t particles, uint32_t inactive) { return {.filled = particles, .inactive = inactive, .nextId = particles}; }
+
+}  // namespace rill

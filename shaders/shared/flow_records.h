@@ -1,0 +1,67 @@
+// Emitters, drains and the ledger of particles on the device: see docs/notes/flows.md.
+#ifndef RILL_FLOW_RECORDS_H
+#define RILL_FLOW_RECORDS_H
+#include "shared/interop.h"
+RILL_RECORDS_BEGIN
+
+RILL_CONST uint kMaxFlows = 256u;      // emitters of a scene, and drains
+RILL_CONST uint kMaxDueLayers = 4u;    // of an emitter at a rebuild; more do not fit in front of the mouth
+RILL_CONST float kLateLayers = 0.25f;  // by how many layers a birth may be late before the list is rebuilt for it
+RILL_CONST float kNever = 1.0e30f;     // s
+RILL_CONST uint kHalfLayer = 0x80000000u;  // phase at the start: the first layer is due when half of it has left
+
+struct EmitterRecord {
+  // What a host may change, first.
+  float centerX, centerY, centerZ;  // m, of the mouth, relative to the particles' origin
+  float speed;                      // m/s, of particles that leave
+  float normalX, normalY, normalZ;  // unit vector, direction of the flow
+  float rate;                       // layers of particles a second; 0: closed
+  float acrossX, acrossY, acrossZ;  // unit vectors of the mouth's lattice
+  float upX, upY, upZ;
+  float halfAcross, halfUp;         // m, half the mouth's size; of a round one its radius
+  float from, until;                // s
+  uint firstPoint, points;          // of its layer, among the mouths' points
+  uint round_;                      // 1: a disc
+  // State.
+  uint phase;                       // of the layer that leaves, in units of 2^-32
+  uint due;                         // layers to be born at the next rebuild
+  float doneHigh, doneLow;          // s, the time up to which it is accounted for, as the sum of two floats
+  float late;                       // s, since it closed
+  uint emitted;                     // particles since the start
+  uint blocked;                     // 1: particles of the last layer had no place
+  uint layers;                      // to be born at this rebuild
+  uint firstCandidate;              // of their particles
+};
+
+struct DrainRecord {
+  float lowX, lowY, lowZ;     // m, box: corners; sphere: its center
+  float from;                 // s
+  float highX, highY, highZ;  // m; sphere: its radius in x
+  float until;                // s
+  uint sphere;                // 1: a sphere
+  uint drained;               // particles since the start
+};
+
+// The ledger: filled + emitted = present + drained + left + inactive.
+struct FlowRecord {
+  uint filled;               // particles at the start, inactive ones among them
+  uint inactive;             // of those
+  uint emitted;              // since the start
+  uint drained;
+  uint left;                 // through open sides
+  uint nextId;
+  uint outOfIds;             // 1: emitters stopped because ids ran out
+  uint full;                 // 1: emitters found no room at some time
+  float blockedHigh, blockedLow;  // s, in which some emitter was blocked, as the sum of two floats
+  // Of the last rebuild.
+  uint firstBorn;            // entry of the first birth
+  uint candidates;
+};
+
+struct EmissionPush {
+  float advance;  // s, of the advance that begins; 0 at a rebuild
+  uint births;    // 1: at a rebuild, layers that are due are born
+};
+
+RILL_RECORDS_END
+#endif
