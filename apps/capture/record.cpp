@@ -28,6 +28,7 @@ std::string oneLine(const Json& json) { return json.dump(-1, ' ', false, Json::e
 Json jsonOf(double value) { return value; }
 Json jsonOf(const offline::LoadValue& load) { return {{"force", load.force}, {"torque", load.torque}}; }
 Json jsonOf(const offline::PressureValue& value) { return value.pressure; }
+Json jsonOf(const offline::FlowValue& value) { return {{"flow", value.flow}, {"volume", value.volume}}; }
 Json jsonOf(const offline::PoseValue& pose) {
   return {{"position", pose.position},
           {"rotation", std::array{pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}},
@@ -49,6 +50,10 @@ void addFigures(const std::string& name, const offline::LoadValue& load, std::ve
 void addFigures(const std::string& name, const offline::PressureValue& value, std::vector<Figure>& figures) {
   figures.push_back({name, value.pressure, "Pa"});
 }
+void addFigures(const std::string& name, const offline::FlowValue& value, std::vector<Figure>& figures) {
+  figures.push_back({name + ".flow", value.flow, "m3/s"});
+  figures.push_back({name + ".volume", value.volume, "m3"});
+}
 void addFigures(const std::string& name, const offline::PoseValue& pose, std::vector<Figure>& figures) {
   addComponents(name + ".position", pose.position, "m", figures);
   addComponents(name + ".rotation", pose.rotation, "", figures);
@@ -63,10 +68,20 @@ offline::ProbeValue noValue(const Probe& probe) {
   if (!probe.load.empty()) return offline::LoadValue{kNoVector, kNoVector};
   if (!probe.pose.empty()) return offline::PoseValue{kNoVector, {kNone, kNone, kNone, kNone}, kNoVector, kNoVector};
   if (probe.pressure) return offline::PressureValue{kNone};
+  if (!probe.flow.empty()) return offline::FlowValue{kNone, kNone};
   return kNone;
 }
 
-Json frameJson(double time_s, const offline::Stats& stats) {
+uint64_t presentParticles(const FluidLedger& l) { return l.filled + l.emitted - l.drained - l.left - l.inactive; }
+
+Json jsonOf(const FluidLedger& l) {
+  return {{"name", "fluid"},       {"particles", presentParticles(l)},
+          {"filled", l.filled},    {"emitted", l.emitted},
+          {"drained", l.drained},  {"left", l.left},
+          {"inactive", l.inactive}};
+}
+
+Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   Json probes = Json::object(), pass_ms = Json::object(), skipped = Json::object();
   for (const auto& [name, value] : stats.probes) probes[name] = std::visit([](const auto& v) { return jsonOf(v); }, value);
   for (const offline::PassTime& pass : stats.passes)
@@ -97,6 +112,8 @@ Json frameJson(double time_s, const offline::Stats& stats) {
   frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
   frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
+  frame["fluids"] = Json::array({jsonOf(stats.ledger)});
+  if (!scene.emitters.empty()) frame["emitter_blocked_s"] = stats.emitterBlocked_s;
   if (stats.bodies)
     frame["bodies"] = {{"kinetic_J", stats.bodies->kinetic_J},
                        {"potential_J", stats.bodies->potential_J},
@@ -171,6 +188,10 @@ std::vector<Figure> Record::figures() const {
       {"loop_bound_hits", of(&Stats::loopBoundHits)(largest), ""},
       {"picture_bound_hits", double(pictureBoundHits()), ""},
   };
+  const FluidLedger& ledger = last.ledger;
+  for (const auto& [name, count] : {std::pair{"emitted", ledger.emitted}, {"drained", ledger.drained}, {"left", ledger.left}})
+    figures.push_back({name, double(count), ""});
+  if (!scene_->emitters.empty()) figures.push_back({"emitter_blocked_s", last.emitterBlocked_s, "s"});
   if (bodyCount(*scene_) > 0) {
     const BodyFigures bodies = last.bodies.value_or(BodyFigures{});
     figures.push_back({"bodies.kinetic_J", bodies.kinetic_J, "J"});
@@ -210,7 +231,7 @@ std::string Record::json() const {
   for (const auto& [key, value] : head.items()) text += "  " + oneLine(key) + ": " + oneLine(value) + ",\n";
   text += "  \"frames\": [";
   for (size_t k = 0; k < frames_.size(); ++k)
-    text += std::string(k ? "," : "") + "\n    " + oneLine(frameJson(frames_[k].time_s, frames_[k].stats));
+    text += std::string(k ? "," : "") + "\n    " + oneLine(frameJson(*scene_, frames_[k].time_s, frames_[k].stats));
   return text + (frames_.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
@@ -246,6 +267,13 @@ std::vector<std::string> Record::warnings() const {
   if (last.loopBoundHits > 0)
     warnings.push_back("warning: loops of the fluid's shaders reached their limit " + grouped(last.loopBoundHits) +
                        " times since the start: some particles have too many neighbors, or bodies touch too many solids");
+  if (last.ledger.outOfIds) warnings.push_back("warning: emitters have stopped: the ids of particles have run out");
+  if (last.ledger.full)
+    warnings.push_back("warning: emitters were blocked: the room for particles (fluid.capacity) was full; emitter_blocked_s is " +
+                       roundedNumber(last.emitterBlocked_s) + " s");
+  else if (last.emitterBlocked_s > 0)
+    warnings.push_back("warning: emitters were blocked for " + roundedNumber(last.emitterBlocked_s) +
+                       " s: a part of a mouth was in a solid or behind a wall");
   if (last.nonFinite > 0)
     warnings.push_back("warning: " + grouped(last.nonFinite) + (last.nonFinite == 1 ? " particle is" : " particles are") +
                        " inactive: the position or velocity was not finite");

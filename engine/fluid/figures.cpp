@@ -105,8 +105,14 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
 }
 
 FluidLedger FluidImpl::ledgerOf(uint32_t particles, uint32_t inactive) const {
-  if (setup.removes) return {ledger.filled, ledger.emitted, ledger.drained, ledger.left, ledger.inactive};
-  return {.filled = particles, .inactive = inactive};
+  if (!setup.removes) return {.filled = particles, .inactive = inactive};
+  return {.filled = ledger.filled,
+          .emitted = ledger.emitted,
+          .drained = ledger.drained,
+          .left = ledger.left,
+          .inactive = ledger.inactive,
+          .full = ledger.full != 0,
+          .outOfIds = ledger.outOfIds != 0};
 }
 
 void FluidImpl::poll() const {

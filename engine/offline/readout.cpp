@@ -5,6 +5,8 @@
 #include <cstring>
 #include <span>
 
+#include "shared/fluid_records.h"
+
 namespace rill::offline {
 namespace {
 
@@ -46,6 +48,18 @@ Readout collect(const Graph& graph, const ReadoutTickets& tickets) {
     result.relativeDensities.push_back(velocities[i].w);
   }
   return result;
+}
+
+Readout activeOnly(const Readout& all) {
+  Readout active;
+  for (size_t i = 0; i < all.ids.size(); ++i) {
+    if (all.positions[i].x >= kInactiveLimit) continue;
+    active.positions.push_back(all.positions[i]);
+    active.velocities.push_back(all.velocities[i]);
+    active.relativeDensities.push_back(all.relativeDensities[i]);
+    active.ids.push_back(all.ids[i]);
+  }
+  return active;
 }
 
 }  // namespace rill::offline

@@ -26,5 +26,7 @@ struct ReadoutTickets {
 ReadoutTickets readout(Graph& graph, const FluidState& state);
 /// The particles that were read back. The frame must have completed.
 Readout collect(const Graph& graph, const ReadoutTickets& tickets);
+/// Without the inactive ones, which have left the fluid and keep their entries until the next sort.
+Readout activeOnly(const Readout& all);
 
 }  // namespace rill::offline

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/words.hpp"
+#include "fluid/flows.hpp"
 #include "offline/advances.hpp"
 #include "offline/context.hpp"
 #include "offline/painter.hpp"
@@ -57,9 +58,9 @@ class Simulation::Impl {
   Error withMemoryNeeded(Error error) const {
     const auto mebibytes = [](uint64_t bytes) { return grouped(bytes >> 20) + " MiB"; };
     const DeviceInfo& device = context_->device().info();
-    error.message += "\n" + grouped(start_.positions.size()) + " particles need " +
-                     mebibytes(fluidMemory(scene_, start_.positions.size()).total()) + " on the device; " + inQuotes(device.name) +
-                     " has " + mebibytes(device.deviceLocalBytes);
+    const uint64_t particles = std::max<uint64_t>(capacityOf(scene_, start_.positions.size()), start_.positions.size());
+    error.message += "\n" + grouped(particles) + " particles need " + mebibytes(fluidMemory(scene_, particles).total()) +
+                     " on the device; " + inQuotes(device.name) + " has " + mebibytes(device.deviceLocalBytes);
     return error;
   }
 
@@ -232,6 +233,7 @@ class Simulation::Impl {
     if (probe.level) return reader.level(probe.level->first, probe.level->second);
     if (probe.front) return reader.front(*probe.front);
     if (probe.pressure) return pressureAt(probe);
+    if (!probe.flow.empty()) return flowThrough(probe.flow);
     return probe.load.empty() ? ProbeValue(poseOf(solidNamed(probe.pose))) : loadOn(solidNamed(probe.load));
   }
 
@@ -261,6 +263,24 @@ class Simulation::Impl {
                                                        : readings[k].mean};
   }
 
+  /// Of the emitter or drain of this name: their volumes, emitters first.
+  FlowValue flowThrough(const std::string& name) const {
+    const auto nameOf = [](const auto& flow) -> const std::string& { return flow.name; };
+    const auto emitter = std::ranges::find(scene_.emitters, name, nameOf);
+    const auto drain = std::ranges::find(scene_.drains, name, nameOf);
+    const size_t k = emitter != scene_.emitters.end() ? static_cast<size_t>(emitter - scene_.emitters.begin())
+                                                      : scene_.emitters.size() + static_cast<size_t>(drain - scene_.drains.begin());
+    const double volume = flowVolumes()[k], seconds = advancedSeconds();
+    return {seconds > 0 && k < volumesBefore_.size() ? (volume - volumesBefore_[k]) / seconds : 0.0, volume};
+  }
+
+  std::vector<double> flowVolumes() const {
+    std::vector<double> volumes;
+    for (const auto flows : {fluid_->emitted(), fluid_->drained()})
+      for (const FlowReading& flow : flows) volumes.push_back(flow.volume);
+    return volumes;
+  }
+
   /// Mean over the last advance().
   LoadValue loadOn(size_t solid) const {
     LoadValue value;
@@ -279,6 +299,7 @@ class Simulation::Impl {
     loadsBefore_.assign(loads.begin(), loads.end());
     const auto pressures = fluid_->pressures();
     pressuresBefore_.assign(pressures.begin(), pressures.end());
+    volumesBefore_ = flowVolumes();
     advanced_s_ = 0;
     measured_.reset();
     advanced_ = {};
@@ -361,6 +382,7 @@ class Simulation::Impl {
     });
     if (!ran) return ran;
     readout_ = collect(measureGraph_, tickets);
+    if (removes(scene_)) readout_ = activeOnly(readout_);
     FluidStats stats = fluid_->stats().value_or(FluidStats{});
     if (fluid_->count() == 0) stats.time_s = time_s_;
     measured_ = stats;
@@ -387,7 +409,8 @@ class Simulation::Impl {
   // Before the last advance().
   std::vector<SolidLoad> loadsBefore_;
   std::vector<PressureReading> pressuresBefore_;
-  double advanced_s_ = 0;  ///< of the last advance(), dropped time included
+  std::vector<double> volumesBefore_;  ///< m^3, through emitters, then drains
+  double advanced_s_ = 0;              ///< of the last advance(), dropped time included
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -75,6 +75,8 @@ struct FluidLedger {
   uint64_t drained = 0;   ///< removed by drains
   uint64_t left = 0;      ///< removed beyond open sides (Domain::open_removes)
   uint64_t inactive = 0;  ///< not simulated: of the start, with a value that was not finite
+  bool full = false;      ///< emitters found the capacity reached at some time
+  bool outOfIds = false;  ///< emitters have stopped for good: ids, of which there are 0x7F000000, have run out
 };
 
 /// Where a body is and how fast it moves, in the scene.

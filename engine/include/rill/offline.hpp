@@ -100,8 +100,14 @@ struct PressureValue {
   double pressure = 0;  ///< Pa, over that of the air, >= 0; NaN inside a solid
 };
 
+/// Value of a probe of a flow: of the fluid through an emitter or a drain.
+struct FlowValue {
+  double flow = 0;    ///< m^3/s, mean over the last advance(); 0 before the first
+  double volume = 0;  ///< m^3, since the start
+};
+
 /// A length (m) of a level or a front, or one of the above.
-using ProbeValue = std::variant<double, LoadValue, PoseValue, PressureValue>;
+using ProbeValue = std::variant<double, LoadValue, PoseValue, PressureValue, FlowValue>;
 
 /// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
