@@ -14,8 +14,8 @@ class Checker {
 
   template <class Owner>
   bool object(const std::string& path, const Owner& owner) {
-    constexpr const auto& one_of = model::Table<Owner>::one_of;
-    std::vector<std::string_view> chosen;
+    constexpr auto choices = model::choicesOf<Owner>();
+    std::array<std::vector<std::string_view>, choices.size()> chosen;
     bool ok = true;
     model::forEachField<Owner>([&](const auto& field) {
       using Value = typename std::remove_cvref_t<decltype(field)>::Value;
@@ -23,15 +23,17 @@ class Checker {
         const Value* member = field.find(owner);
         if constexpr (std::is_same_v<Owner, MeshShape> && std::is_same_v<Value, std::filesystem::path>)
           return;  // a host has a mesh instead
-        const bool choice = std::ranges::find(one_of, field.info.key) != one_of.end();
-        if (!ok || member == nullptr || (choice && !given(*member))) return;
-        if (choice) chosen.push_back(field.info.key);
+        const auto choice =
+            std::ranges::find_if(choices, [&](const auto& keys) { return std::ranges::find(keys, field.info.key) != keys.end(); });
+        if (!ok || member == nullptr || (choice != choices.end() && !given(*member))) return;
+        if (choice != choices.end()) chosen[static_cast<size_t>(choice - choices.begin())].push_back(field.info.key);
         ok = value(memberPath(path, field.info.key), field.info, *member);
       }
     });
     // The spacing that `particles` led to may be kept beside it (ParticleSet::spacing), so both may be given.
-    if (std::is_same_v<Owner, FluidSettings> && chosen.size() == 2) chosen.pop_back();
-    return ok && accept(path, model::checkOneOf(one_of, chosen)) && accept(path, model::checkRules(owner));
+    if constexpr (std::is_same_v<Owner, FluidSettings>) chosen[0].resize(std::min<size_t>(chosen[0].size(), 1));
+    for (size_t i = 0; i < choices.size(); ++i) ok = ok && accept(path, model::checkOneOf(choices[i], chosen[i]));
+    return ok && accept(path, model::checkRules(owner));
   }
 
  private:
@@ -79,8 +81,8 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, const std::filesystem::path& given) {
     return (!info.required && given.empty()) || accept(path, model::checkFileName(given.string()));
   }
-  bool value(const std::string& path, const model::Info& info, const std::optional<std::pair<double, double>>& given) {
-    return !given || (value(elementPath(path, 0), info, given->first) && value(elementPath(path, 1), info, given->second));
+  bool value(const std::string& path, const model::Info& info, const std::pair<double, double>& given) {
+    return value(elementPath(path, 0), info, given.first) && value(elementPath(path, 1), info, given.second);
   }
   bool value(const std::string& path, const model::Info& info, const Double3& given) { return components(path, info, given); }
   bool value(const std::string& path, const model::Info& info, const Quaternion& given) { return components(path, info, given); }

@@ -41,6 +41,7 @@ struct Info {
   bool required = false;                         ///< the key must be given
   size_t most = 0;                               ///< largest number of entries of a list; 0: unlimited
   std::string_view since = {};                   ///< version that a scene must ask for to use the key; empty: any
+  std::string_view unset = "auto";               ///< value that leaves an optional number empty; "": leaving out the key alone does
 };
 
 /// A key and the member of Owner that it sets. The type of the member selects how the value is read.
@@ -85,6 +86,7 @@ inline constexpr std::array<std::string_view, 0> kNoWords{};
 ///   static constexpr std::string_view about;     description in one line
 ///   static constexpr std::tuple fields;          of Field and Alternative, in the order of the documentation
 ///   static constexpr std::array<std::string_view, N> one_of;   exactly one of these keys must be given; N may be 0
+///   static constexpr std::array<std::string_view, N> one_of_too;   optional: a second such choice
 template <class Owner>
 struct Table;
 
@@ -108,6 +110,19 @@ std::vector<std::string_view> keysOf() {
   std::vector<std::string_view> keys;
   forEachField<Owner>([&](const auto& field) { keys.push_back(field.info.key); });
   return keys;
+}
+
+/// The choices of Owner: lists of keys of which exactly one must be given.
+template <class Owner>
+constexpr auto choicesOf() {
+  using Keys = std::span<const std::string_view>;
+  if constexpr (Table<Owner>::one_of.empty()) {
+    return std::array<Keys, 0>{};
+  } else if constexpr (requires { Table<Owner>::one_of_too; }) {
+    return std::array<Keys, 2>{Table<Owner>::one_of, Table<Owner>::one_of_too};
+  } else {
+    return std::array<Keys, 1>{Table<Owner>::one_of};
+  }
 }
 
 /// The described struct S in S, std::optional<S> or std::vector<S>; void for other types.

@@ -1,11 +1,12 @@
 #pragma once
 // The table of scene keys: parser, JSON Schema, --set, the documented key table and the viewer's sliders are derived from it by
-// forEachField<FluidSettings>(...). Rows of `fluid` and `solver` are in fluid_fields.hpp. Defaults are the member initializers in
-// rill/scene.hpp.
+// forEachField<FluidSettings>(...). Rows of `fluid` and `solver` are in fluid_fields.hpp, those of `emitters` and `drains` in
+// flow_fields.hpp. Defaults are the member initializers in rill/scene.hpp.
 #include <array>
 #include <filesystem>
 
 #include "model/field.hpp"
+#include "model/flow_fields.hpp"
 #include "model/fluid_fields.hpp"
 #include "rill/scene.hpp"
 
@@ -27,9 +28,14 @@ struct Table<Domain> {
       Field{Info{.key = "min", .unit = "m", .help = "lowest corner [x, y, z]"}, &Domain::min},
       Field{Info{.key = "max", .unit = "m", .help = "highest corner [x, y, z]; above min on every axis"}, &Domain::max},
       Field{Info{.key = "open",
-                 .help = "sides without a wall; particles that leave through one stay in the simulation and are counted as outside",
+                 .help = "sides without a wall; particles that leave through one stay in the simulation and are counted as outside, "
+                         "unless open_removes",
                  .words = kSideWords},
             &Domain::open},
+      Field{Info{.key = "open_removes",
+                 .help = "true: particles that leave through an open side are removed and counted as left",
+                 .since = "0.2"},
+            &Domain::open_removes},
       Field{Info{.key = "slip", .help = "false: fluid with a viscosity above 0 sticks to the walls (no-slip)", .since = "0.2"},
             &Domain::slip}};
 };
@@ -181,8 +187,8 @@ struct Table<GravityChange> {
 
 template <>
 struct Table<Probe> {
-  static constexpr std::string_view about = "A measurement, recorded with the statistics";
-  static constexpr std::array<std::string_view, 5> one_of{"level", "front", "load", "pose", "pressure"};
+  static constexpr std::string_view about = "A measurement in the statistics";
+  static constexpr std::array<std::string_view, 6> one_of{"level", "front", "load", "pose", "pressure", "flow"};
   static constexpr std::tuple fields{
       Field{Info{.key = "name", .help = "name in the statistics; unique, not empty", .required = true}, &Probe::name},
       Field{Info{.key = "level", .unit = "m", .help = "height of the fluid column above the floor at [x, z]"}, &Probe::level},
@@ -206,7 +212,12 @@ struct Table<Probe> {
                  .help = "pressure (Pa, over that of the air) of the fluid at this point [x, y, z], mean over the time since the frame "
                          "before; 0 in air, null inside a solid",
                  .since = "0.2"},
-            &Probe::pressure}};
+            &Probe::pressure},
+      Field{Info{.key = "flow",
+                 .help = "name of an emitter or a drain: fluid that went through it, per time (m^3/s, mean over the time since the frame "
+                         "before) and since the start (m^3)",
+                 .since = "0.2"},
+            &Probe::flow}};
 };
 
 template <>
@@ -259,6 +270,12 @@ struct Table<Scene> {
       Field{Info{.key = "solver", .help = "accuracy and cost of the solver"}, &Scene::solver},
       Field{Info{.key = "fill", .help = "initial fluid; without it the scene is empty"}, &Scene::fill},
       Field{Info{.key = "solids", .help = "solids that the fluid flows around", .most = 4096}, &Scene::solids},
+      Field{Info{.key = "emitters", .help = "sources of fluid", .most = kMaxEmitters, .since = "0.2"}, &Scene::emitters},
+      Field{Info{.key = "drains",
+                 .help = "volumes that remove fluid; where they overlap, the first takes it",
+                 .most = kMaxDrains,
+                 .since = "0.2"},
+            &Scene::drains},
       Field{Info{.key = "probes", .help = "measurements that are recorded with the statistics"}, &Scene::probes},
       Field{Info{.key = "camera", .help = "camera of rendered pictures; without it the domain or the fluid is framed"}, &Scene::camera},
       Field{Info{.key = "look", .help = "appearance of rendered pictures"}, &Scene::look}};

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "model/field.hpp"
-#include "rill/scene.hpp"
+#include "rill/particles.hpp"
 
 namespace rill::model {
 
@@ -60,7 +60,13 @@ struct Table<FluidSettings> {
       Field{Info{.key = "tensile_power",
                  .range = between(1, 16),
                  .help = "artificial pressure: exponent n; higher values limit it to closer pairs"},
-            &FluidSettings::tensile_power}};
+            &FluidSettings::tensile_power},
+      Field{Info{.key = "capacity",
+                 .range = between(0, static_cast<double>(kMaxParticles)),
+                 .help = "largest number of particles at a time; emitters wait while it is reached. 0: those at the start, and what the "
+                         "emitters add in the scene's duration",
+                 .since = "0.2"},
+            &FluidSettings::capacity}};
 };
 
 template <>

@@ -53,6 +53,17 @@ CheckResult uniqueNames(const std::vector<Named>& entries, std::string_view list
   return {};
 }
 
+/// `known`: all names of that kind. `path`: of the key that names one.
+CheckResult knownName(const std::string& wanted, const std::vector<std::string_view>& known, const std::string& kind,
+                      const std::string& one, const std::string& path) {
+  if (std::ranges::find(known, wanted) != known.end()) return {};
+  const std::string_view suggestion = nearestWord(wanted, known);
+  return Fault{"no " + kind + " is named " + inQuotes(wanted) + "; expected " +
+                   (known.empty() ? "the name of " + one + ", but no " + kind + " has one" : "one of " + quotedList(known)) +
+                   (suggestion.empty() ? "" : "; did you mean " + inQuotes(suggestion) + "?"),
+               {path}};
+}
+
 CheckResult unitQuaternion(const Quaternion& parts, std::string_view key) {
   const double length = std::hypot(std::hypot(parts.x, parts.y, parts.z), parts.w);
   if (!(length > 0))
@@ -134,7 +145,12 @@ CheckResult checkOneOf(std::span<const std::string_view> keys, std::span<const s
 }
 
 CheckResult checkRules(const BoxShape& box) { return minBelowMax(box.min, box.max); }
-CheckResult checkRules(const Domain& domain) { return minBelowMax(domain.min, domain.max); }
+
+CheckResult checkRules(const Domain& domain) {
+  if (domain.open_removes && domain.open == 0)
+    return Fault{"found true, but no side is open; expected sides in \"open\", or false", {"open_removes", "open"}};
+  return minBelowMax(domain.min, domain.max);
+}
 
 CheckResult checkRules(const FluidSettings& fluid) {
   if (fluid.spacing <= 0) return {};
@@ -200,24 +216,27 @@ CheckResult checkRules(const std::vector<GravityChange>& changes) { return incre
 
 CheckResult checkRules(const std::vector<Probe>& probes) { return uniqueNames(probes, "probes", true); }
 
-// Solids that probes name exist.
+// What probes name exists, and names of emitters and drains are unique.
 CheckResult checkRules(const Scene& scene) {
-  std::vector<std::string_view> names;
+  std::vector<std::string_view> solids, flows;
   for (const Solid& solid : scene.solids)
-    if (!solid.name.empty()) names.push_back(solid.name);
+    if (!solid.name.empty()) solids.push_back(solid.name);
+  if (CheckResult fault = collectFlowNames(scene, flows)) return fault;
   for (size_t i = 0; i < scene.probes.size(); ++i) {
     const Probe& probe = scene.probes[i];
+    const std::string path = elementPath("probes", i);
     if (probe.level || probe.front || probe.pressure) continue;
-    if (probe.load.empty() && probe.pose.empty())
-      return Fault{"found an empty name, expected the name of a solid", {elementPath("probes", i)}};
-    const bool load = !probe.load.empty();
-    const std::string& wanted = load ? probe.load : probe.pose;
-    if (std::ranges::find(names, wanted) != names.end()) continue;
-    const std::string_view suggestion = nearestWord(wanted, names);
-    return Fault{"no solid is named " + inQuotes(wanted) + "; expected " +
-                     (names.empty() ? "the name of a solid, but no solid has one" : "one of " + quotedList(names)) +
-                     (suggestion.empty() ? "" : "; did you mean " + inQuotes(suggestion) + "?"),
-                 {memberPath(elementPath("probes", i), load ? "load" : "pose")}};
+    CheckResult fault;
+    if (!probe.load.empty()) {
+      fault = knownName(probe.load, solids, "solid", "a solid", memberPath(path, "load"));
+    } else if (!probe.pose.empty()) {
+      fault = knownName(probe.pose, solids, "solid", "a solid", memberPath(path, "pose"));
+    } else if (!probe.flow.empty()) {
+      fault = knownName(probe.flow, flows, "emitter or drain", "an emitter or a drain", memberPath(path, "flow"));
+    } else {
+      fault = Fault{"found an empty name, expected the name of a solid, an emitter or a drain", {path}};
+    }
+    if (fault) return fault;
   }
   return {};
 }

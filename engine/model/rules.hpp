@@ -41,12 +41,18 @@ CheckResult checkRules(const Fill& fill);
 CheckResult checkRules(const Solid& solid);
 CheckResult checkRules(const Body& body);
 CheckResult checkRules(const Keyframe& keyframe);
+CheckResult checkRules(const DiscMouth& mouth);
+CheckResult checkRules(const RectMouth& mouth);
+CheckResult checkRules(const Emitter& emitter);
+CheckResult checkRules(const Drain& drain);
 CheckResult checkRules(const Camera& camera);
 CheckResult checkRules(const std::vector<Keyframe>& motion);
 CheckResult checkRules(const std::vector<GravityChange>& changes);
 CheckResult checkRules(const std::vector<Solid>& solids);
 CheckResult checkRules(const std::vector<Probe>& probes);
 CheckResult checkRules(const Scene& scene);
+/// Adds the names of emitters and drains to `names`; a fault if two of them are the same.
+CheckResult collectFlowNames(const Scene& scene, std::vector<std::string_view>& names);
 template <class T>
 CheckResult checkRules(const T&) {
   return {};

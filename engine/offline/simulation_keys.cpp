@@ -39,7 +39,7 @@ class KeyCollector {
       if constexpr (model::kHasMember<Value>) {
         std::string key = (path.empty() ? "" : path + ".") + std::string(field.info.key);
         const Value* value = field.find(owner);
-        if (field.info.key == "name") return;  // of a solid: no bit depends on it
+        if (field.info.key == "name") return;  // no bit depends on it
         if (value && std::find(kExcluded.begin(), kExcluded.end(), key) == kExcluded.end()) add(field.info, std::move(key), *value);
       }
     });
@@ -51,8 +51,11 @@ class KeyCollector {
   void add(const model::Info&, std::string key, bool value) { keys_.emplace_back(std::move(key), value ? "true" : "false"); }
   void add(const model::Info&, std::string key, uint32_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
   void add(const model::Info&, std::string key, uint64_t value) { keys_.emplace_back(std::move(key), std::to_string(value)); }
-  void add(const model::Info&, std::string key, const std::optional<double>& value) {
-    keys_.emplace_back(std::move(key), value ? shortestNumber(*value) : "auto");
+  void add(const model::Info& info, std::string key, const std::optional<double>& value) {
+    keys_.emplace_back(std::move(key), value ? shortestNumber(*value) : info.unset.empty() ? "not set" : std::string(info.unset));
+  }
+  void add(const model::Info&, std::string key, const std::pair<double, double>& value) {
+    addList(std::move(key), std::array{value.first, value.second});
   }
   void add(const model::Info& info, std::string key, SideMask value) {
     std::string sides;

@@ -34,8 +34,11 @@ inline OrderedJson defaultJson(const model::Info& info, uint64_t value) { return
 inline OrderedJson defaultJson(const model::Info& info, const std::string& value) {
   return info.required || value.empty() ? OrderedJson() : OrderedJson(value);
 }
-inline OrderedJson defaultJson(const model::Info&, const std::optional<double>& value) {
-  return value ? tidyNumber(*value) : OrderedJson("auto");
+inline OrderedJson defaultJson(const model::Info& info, const std::optional<double>& value) {
+  return value ? tidyNumber(*value) : info.unset.empty() ? OrderedJson() : OrderedJson(info.unset);
+}
+inline OrderedJson defaultJson(const model::Info&, const std::pair<double, double>& value) {
+  return OrderedJson::array({tidyNumber(value.first), tidyNumber(value.second)});
 }
 inline OrderedJson defaultJson(const model::Info& info, SideMask value) {
   OrderedJson sides = OrderedJson::array();

@@ -201,6 +201,14 @@ bool Reader::numbers(const Json& json, const std::string& path, const model::Inf
   return true;
 }
 
+bool Reader::pair(const Json& json, const std::string& path, const model::Info& info, std::string_view shape,
+                  std::pair<double, double>& out) {
+  double both[2] = {0, 0};
+  if (!numbers(json, path, info, shape, both)) return false;
+  out = {both[0], both[1]};
+  return true;
+}
+
 bool Reader::text(const Json& json, const std::string& path, std::string& out) {
   const OverrideMarks::Mark* mark = marks_.valueAt(path);
   if (json.is_string()) {
@@ -269,21 +277,16 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
 }
 
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out) {
-  if (json.is_string() && json.get_ref<const std::string&>() == "auto") {
-    out.reset();
-    return true;
-  }
-  if (json.is_string() && !isNonFiniteWord(json.get_ref<const std::string&>())) {
-    return fail(path, foundText(json) + ", expected \"auto\" or " + model::expectedNumber(info, false));
+  if (json.is_string() && !info.unset.empty()) {
+    const std::string& given = json.get_ref<const std::string&>();
+    if (given == info.unset) {
+      out.reset();
+      return true;
+    }
+    if (!isNonFiniteWord(given))
+      return fail(path, foundText(json) + ", expected " + inQuotes(info.unset) + " or " + model::expectedNumber(info, false));
   }
   return number(json, path, info, false, out.emplace());
-}
-
-bool Reader::value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out) {
-  double pair[2] = {0, 0};
-  if (!numbers(json, path, info, "[x, z]", pair)) return false;
-  out.emplace(pair[0], pair[1]);
-  return true;
 }
 
 bool Reader::value(const Json& json, const std::string& path, const model::Info&, fs::path& out) {

@@ -42,7 +42,8 @@ class Reader {
     if constexpr (std::is_same_v<Owner, Solid> || std::is_same_v<Owner, Fill>) normalize(owner.rotation);
     if constexpr (std::is_same_v<Owner, Keyframe>) normalize(owner.rotate);
     if constexpr (std::is_same_v<Owner, MeshShape>) ok = ok && loadMesh(path, owner);
-    return ok && exactlyOne(json, path, model::Table<Owner>::one_of) && accept(path, model::checkRules(owner));
+    for (const auto& keys : model::choicesOf<Owner>()) ok = ok && exactlyOne(json, path, keys);
+    return ok && accept(path, model::checkRules(owner));
   }
 
  private:
@@ -80,6 +81,7 @@ class Reader {
   // Readers of a value, selected by the type of the member that it sets.
   bool number(const Json& json, const std::string& path, const model::Info& info, bool whole, double& out);
   bool numbers(const Json& json, const std::string& path, const model::Info& info, std::string_view shape, std::span<double> out);
+  bool pair(const Json& json, const std::string& path, const model::Info& info, std::string_view shape, std::pair<double, double>& out);
   bool word(const Json& json, const std::string& path, const model::Info& info, size_t& out);
   bool text(const Json& json, const std::string& path, std::string& out);
 
@@ -92,7 +94,12 @@ class Reader {
   bool value(const Json& json, const std::string& path, const model::Info& info, std::string& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, SideMask& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<double>& out);
-  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out);
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::pair<double, double>& out) {
+    return pair(json, path, info, "[width, height]", out);
+  }
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out) {
+    return pair(json, path, info, "[x, z]", out.emplace());
+  }
   bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, Double3& out) {
     return numbers(json, path, info, "[x, y, z]", out);

@@ -31,6 +31,9 @@ OrderedJson arraySchema(const OrderedJson& items, size_t least, size_t most) {
 template <class T>
 inline constexpr bool kIsVector = std::is_same_v<T, Double3> || std::is_same_v<T, std::optional<Double3>> || std::is_same_v<T, Quaternion>;
 
+template <class T>
+inline constexpr bool kIsPair = std::is_same_v<T, std::pair<double, double>> || std::is_same_v<T, std::optional<std::pair<double, double>>>;
+
 /// The type of a key's value, by the type of its member.
 template <class T>
 OrderedJson typeSchema(const model::Info& info) {
@@ -48,8 +51,9 @@ OrderedJson typeSchema(const model::Info& info) {
     if (schema.contains("maximum") && schema["maximum"].is_number_float()) schema["maximum"] = std::numeric_limits<uint64_t>::max();
     return schema;
   } else if constexpr (std::is_same_v<T, std::optional<double>>) {
-    return {{"oneOf", OrderedJson::array({{{"const", "auto"}}, numberSchema(info, "number")})}};
-  } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
+    if (info.unset.empty()) return numberSchema(info, "number");
+    return {{"oneOf", OrderedJson::array({{{"const", info.unset}}, numberSchema(info, "number")})}};
+  } else if constexpr (kIsPair<T>) {
     return arraySchema(numberSchema(info, "number"), 2, 2);
   } else if constexpr (kIsVector<T>) {
     constexpr size_t kSize = std::is_same_v<T, Quaternion> ? 4 : 3;
@@ -100,9 +104,14 @@ OrderedJson objectSchema() {
   });
   OrderedJson schema{{"description", model::Table<Owner>::about}, {"type", "object"}, {"properties", std::move(properties)}};
   if (!required.empty()) schema["required"] = std::move(required);
-  OrderedJson one_of = OrderedJson::array();
-  for (const std::string_view key : model::Table<Owner>::one_of) one_of.push_back({{"required", OrderedJson::array({key})}});
-  if (!one_of.empty()) schema["oneOf"] = std::move(one_of);
+  OrderedJson choices = OrderedJson::array();
+  for (const auto& keys : model::choicesOf<Owner>()) {
+    OrderedJson one_of = OrderedJson::array();
+    for (const std::string_view key : keys) one_of.push_back({{"required", OrderedJson::array({key})}});
+    choices.push_back({{"oneOf", std::move(one_of)}});
+  }
+  if (choices.size() == 1) schema.update(choices[0]);
+  if (choices.size() > 1) schema["allOf"] = std::move(choices);
   schema["additionalProperties"] = false;
   return schema;
 }
@@ -143,8 +152,8 @@ std::string valuesText(const model::Info& info) {
   } else if constexpr (std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>) {
     return withRange("whole number", info.range);
   } else if constexpr (std::is_same_v<T, std::optional<double>>) {
-    return "`\"auto\"`, or " + withRange("number", info.range);
-  } else if constexpr (std::is_same_v<T, std::optional<std::pair<double, double>>>) {
+    return (info.unset.empty() ? "" : code(inQuotes(info.unset)) + ", or ") + withRange("number", info.range);
+  } else if constexpr (kIsPair<T>) {
     return withRange("2 numbers", info.range);
   } else if constexpr (kIsVector<T>) {
     return withRange(std::string(std::is_same_v<T, Quaternion> ? "4" : "3") + " numbers", info.range);
@@ -176,9 +185,11 @@ void addSection(const std::string& path, std::vector<KeySection>& out) {
   }
   std::string text(model::Table<Owner>::about);
   text += '.';
-  std::string choice;
-  for (const std::string_view key : model::Table<Owner>::one_of) (choice += choice.empty() ? "" : ", ") += code(key);
-  if (!choice.empty()) text += " Exactly one of " + choice + " is given.";
+  for (const auto& keys : model::choicesOf<Owner>()) {
+    std::string choice;
+    for (const std::string_view key : keys) (choice += choice.empty() ? "" : ", ") += code(key);
+    text += " Exactly one of " + choice + " is given.";
+  }
   text += "\n\n| key | unit | value | default | meaning |\n| --- | --- | --- | --- | --- |\n";
   model::forEachField<Owner>([&](const auto& field) {
     using T = typename std::remove_cvref_t<decltype(field)>::Value;

@@ -10,7 +10,8 @@
 
 namespace rill::test {
 
-/// All scenes of assets/scenes, one with the keys of pressure and of fluid that sticks, two with those of bodies, and one with overrides.
+/// All scenes of assets/scenes, one with the keys of pressure and of fluid that sticks, two with those of bodies,
+/// two with those of emitters and drains, and one with overrides.
 inline std::vector<std::string> sceneSeeds() {
   std::vector<std::string> seeds;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes"))
@@ -30,6 +31,15 @@ inline std::vector<std::string> sceneSeeds() {
     "probes": [{"name": "load", "load": "crate"}, {"name": "pose", "pose": "ball"}]})");
   seeds.push_back(R"({"rill": "0.2", "fluid": {"spacing": 0.1}, "solids": [
     {"mesh": {"file": "ball.obj", "scale": 0.1, "up": "z"}, "translation": [0, 1, 0], "body": {"density": 7800}}]})");
+  const std::string flows = R"({"rill": "0.2", "duration": 5, "domain": {"open": ["-y", "+x"], "open_removes": true},
+    "fluid": {"spacing": 0.1, "capacity": 1900}, "fill": [{"box": {"max": [1, 0.5, 1]}}],
+    "solids": [{"name": "lid", "box": {"min": [0.2, 0.8, 0.2], "max": [0.9, 1, 0.9]}, "motion": [{"at": 0}, {"at": 1}]}], "emitters": [
+      {"name": "tap", "disc": {"center": [0.5, 0.9, 0.5], "radius": 0.15, "normal": [0, -1, 0]}, "flow": 0.002, "from": 0.5, "until": 5},
+      {"rect": {"center": [0, 0.8, 0.5], "size": [0.4, 0.2], "normal": [1, 0, 0], "up": [0, 1, 0]}, "speed": 1.5}],
+    "drains": [{"name": "plug", "box": {"max": [0.1, 0.1, 0.1]}, "until": 9}, {"sphere": {"center": [0.9, 0, 0.9], "radius": 0.2}}],
+    "probes": [{"name": "in", "flow": "tap"}, {"name": "out", "flow": "plug"}]})";
+  seeds.push_back(flows);
+  seeds.push_back(flows + '\0' + "emitters[0].flow=0.1\ndrains[0].from=1\nemitters[1].rect.size=[1e3,1e-3]\nfluid.capacity=0\nfill=[]");
   seeds.push_back(seeds.front() + '\0' + "fluid.viscosity=0.1\nsolver.time_step=auto\nfill[0].jitter=0.2\nprobes=[]");
   return seeds;
 }

@@ -50,10 +50,9 @@ class Numbers {
   void add(Quaternion& v) {
     for (double& number : v) add(number);
   }
-  void add(std::optional<std::pair<double, double>>& pair) {
-    if (!pair) return;
-    add(pair->first);
-    add(pair->second);
+  void add(std::pair<double, double>& pair) {
+    add(pair.first);
+    add(pair.second);
   }
   void add(std::optional<double>& number) {
     all_.push_back([&number](double factor, double value) { number = number.value_or(0.01) * factor + value; });

@@ -242,7 +242,7 @@ TEST(SceneErrors, ChecksRulesBetweenKeys) {
        ": fill[0]: expected exactly one of \"box\", \"sphere\", \"mesh\", \"particles\"; found \"box\", \"sphere\""},
       {with(R"("solids": [{"friction": 1}])"), ": solids[0]: expected exactly one of \"box\", \"sphere\", \"mesh\"; found none"},
       {with(R"("probes": [{"name": "a"}])"),
-       ": probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\", \"pressure\"; found none"},
+       ": probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\", \"pressure\", \"flow\"; found none"},
       {with(R"("probes": [{"front": "+x"}])"), ": probes[0].name: required key is missing: name in the statistics; unique, not empty"},
       {with(R"("probes": [{"name": "", "front": "+x"}])"), ": probes[0].name: found an empty name, expected a unique name"},
       {with(R"("probes": [{"name": "a", "front": "+x"}, {"name": "a", "front": "+y"}])"),

@@ -16,16 +16,17 @@ const std::filesystem::path kSceneFolder = std::filesystem::path(RILL_SOURCE_DIR
 /// Validates `value` by the subset of JSON Schema draft-07 that the scene schema uses. Returns the first violation, or an empty string.
 std::string violation(const json& schema, const json& value, const std::string& at = "") {
   static const std::set<std::string> known{
-      "$schema",  "title",    "description", "default", "type",    "properties",       "additionalProperties",
-      "required", "oneOf",    "enum",        "const",   "pattern", "minLength",        "items",
-      "minItems", "maxItems", "uniqueItems", "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"};
+      "$schema",         "title",    "description", "default",     "type",    "properties", "additionalProperties",
+      "required",        "oneOf",    "allOf",       "enum",        "const",   "pattern",    "minLength",
+      "items",           "minItems", "maxItems",    "uniqueItems", "minimum", "maximum",    "exclusiveMinimum",
+      "exclusiveMaximum"};
   for (const auto& [key, rule] : schema.items()) {
     if (!known.contains(key)) return at + ": the schema uses " + key;
   }
   const std::string type = schema.value("type", "");
   const bool whole = value.is_number() && value.get<double>() == std::floor(value.get<double>());
   if ((type == "object" && !value.is_object()) || (type == "array" && !value.is_array()) || (type == "string" && !value.is_string()) ||
-      (type == "number" && !value.is_number()) || (type == "integer" && !whole))
+      (type == "number" && !value.is_number()) || (type == "boolean" && !value.is_boolean()) || (type == "integer" && !whole))
     return at + ": type " + type;
   if (schema.contains("const") && value != schema["const"]) return at + ": const";
   if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
@@ -34,6 +35,9 @@ std::string violation(const json& schema, const json& value, const std::string& 
     const auto valid = std::count_if(schema["oneOf"].begin(), schema["oneOf"].end(),
                                      [&](const json& choice) { return violation(choice, value, at).empty(); });
     if (valid != 1) return at + ": oneOf";
+  }
+  for (const json& part : schema.value("allOf", json::array())) {
+    if (auto bad = violation(part, value, at); !bad.empty()) return bad;
   }
   if (value.is_number()) {
     const double v = value.get<double>();
@@ -96,6 +100,7 @@ TEST(Schema, AcceptsEveryShippedScene) {
 /// The schema and the parser accept the same scenes.
 TEST(Schema, AgreesWithTheParser) {
   const json schema = json::parse(sceneSchema());
+  const auto flow = [](const std::string& more) { return R"({"rill": "0.2", "fluid": {"spacing": 1}, )" + more + "}"; };
   const std::string texts[] = {withFluid(R"("spacing": 0.1)"),
                                withFluid(R"("particles": 100)"),
                                withFluid(""),
@@ -134,6 +139,22 @@ TEST(Schema, AgreesWithTheParser) {
                                with(R"("probes": [{"name": "a", "front": "x"}])"),
                                with(R"("probes": [{"name": "a", "level": [0, 1]}])"),
                                with(R"("probes": [{"level": [0, 1]}])"),
+                               flow(R"("emitters": [], "drains": [])"),
+                               flow(R"("emitters": [{"disc": {}, "flow": 1}, {"rect": {"size": [1, 2]}, "speed": 2, "until": 3}])"),
+                               flow(R"("emitters": [{"disc": {}}])"),
+                               flow(R"("emitters": [{"flow": 1}])"),
+                               flow(R"("emitters": [{"disc": {}, "rect": {}, "flow": 1}])"),
+                               flow(R"("emitters": [{"disc": {}, "flow": 1, "speed": 1}])"),
+                               flow(R"("emitters": [{"disc": {}, "flow": 0}])"),
+                               flow(R"("emitters": [{"disc": {}, "flow": 1, "until": "auto"}])"),
+                               flow(R"("emitters": [{"rect": {"size": [1]}, "flow": 1}])"),
+                               flow(R"("emitters": [{"rect": {"size": [0, 1]}, "flow": 1}])"),
+                               flow(R"("drains": [{"sphere": {}, "from": 1, "until": 2}])"),
+                               flow(R"("drains": [{"box": {}, "sphere": {}}])"),
+                               flow(R"("drains": [{"mesh": {}}])"),
+                               flow(R"("domain": {"open": ["+y"], "open_removes": 1})"),
+                               R"({"rill": "0.2", "fluid": {"spacing": 1, "capacity": 67108864}})",
+                               R"({"rill": "0.2", "fluid": {"spacing": 1, "capacity": 67108865}})",
                                with(R"("camera": {"fov_y_deg": 0})"),
                                with(R"("look": {"surface": "planes"})"),
                                with(R"("look": {"preset": 3})"),
@@ -154,7 +175,9 @@ TEST(KeyTables, HaveARowForEveryKeyWithItsDefault) {
         "| `rill` | | `\"MAJOR.MINOR\"` or `\"MAJOR.MINOR.PATCH\"` | required |",
         "| `kernel` | | `wendland`, `poly6_spiky` | `\"wendland\"` |", "| `spacing` | m | number, above 0 | |",
         "| `solids` | | list of objects, at most 4,096 | `[]` |", "| `seed` | | whole number, from 0 to 18446744073709551615 | `1` |",
-        R"(sum of \|grad C\|^2;)", "### `fill[].box`, `solids[].box`\n", "Exactly one of `spacing`, `particles` is given."}) {
+        R"(sum of \|grad C\|^2;)", "### `fill[].box`, `solids[].box`, `drains[].box`\n", "| `size` | m | 2 numbers, above 0 | `[1,1]` |",
+        "| `until` | s | number, above 0 | | time", "Exactly one of `disc`, `rect` is given. Exactly one of `flow`, `speed` is given.",
+        "Exactly one of `spacing`, `particles` is given."}) {
     EXPECT_NE(tables.find(row), std::string::npos) << row << "\n" << tables;
   }
 }

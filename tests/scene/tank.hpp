@@ -25,6 +25,19 @@ inline Scene tank() {
   front.name = "front";
   front.front = Axis::PlusX;
   scene.probes = {gauge, front};
+  Emitter tap, slot;
+  tap.name = "tap";
+  tap.mouth = DiscMouth{{1.5, 0.9, 0.5}, 0.1};
+  tap.flow = 0.01;
+  tap.from = 0.5;
+  slot.mouth = RectMouth{{0, 0.8, 0.5}, {0.2, 0.1}, {1, 0, 0}, {0, 1, 0}};
+  slot.speed = 1;
+  slot.until = 2;
+  scene.emitters = {tap, slot};
+  Drain plug;
+  plug.name = "plug";
+  plug.shape = BoxShape{{1.8, 0, 0}, {2, 0.1, 1}};
+  scene.drains = {plug};
   scene.camera = Camera{};
   return scene;
 }

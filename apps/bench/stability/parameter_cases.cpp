@@ -39,8 +39,8 @@ void set(Owner& owner, const model::Field<Owner, Value>& field, double value) {
     owner.*field.member = static_cast<Value>(std::llround(value));
 }
 
-/// Excludes keys that define the resolution of the scene.
-bool isTested(std::string_view key) { return key != "spacing" && key != "particles"; }
+/// Excludes keys that define the resolution of the scene, and the memory that it takes.
+bool isTested(std::string_view key) { return key != "spacing" && key != "particles" && key != "capacity"; }
 
 template <class Owner>
 void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner Scene::*part) {

@@ -1,0 +1,71 @@
+#pragma once
+// The rows of the keys `emitters` and `drains`, for the table of fields.hpp.
+#include <array>
+
+#include "model/field.hpp"
+#include "rill/scene.hpp"
+
+namespace rill::model {
+
+inline constexpr size_t kMaxEmitters = 256, kMaxDrains = 256;
+
+template <>
+struct Table<DiscMouth> {
+  static constexpr std::string_view about = "A round mouth";
+  static constexpr std::array one_of = kNoWords;
+  static constexpr std::tuple fields{
+      Field{Info{.key = "center", .unit = "m", .help = "center [x, y, z]"}, &DiscMouth::center},
+      Field{Info{.key = "radius", .unit = "m", .range = above(0), .help = "radius"}, &DiscMouth::radius},
+      Field{Info{.key = "normal", .help = "direction of the flow [x, y, z], of any length above 0"}, &DiscMouth::normal}};
+};
+
+template <>
+struct Table<RectMouth> {
+  static constexpr std::string_view about = "A rectangular mouth";
+  static constexpr std::array one_of = kNoWords;
+  static constexpr std::tuple fields{
+      Field{Info{.key = "center", .unit = "m", .help = "center [x, y, z]"}, &RectMouth::center},
+      Field{Info{.key = "size", .unit = "m", .range = above(0), .help = "width, across up, and height, along up"}, &RectMouth::size},
+      Field{Info{.key = "normal", .help = "direction of the flow [x, y, z], of any length above 0"}, &RectMouth::normal},
+      Field{Info{.key = "up", .help = "direction of the height [x, y, z]; its part across the normal counts, so it is not parallel to it"},
+            &RectMouth::up}};
+};
+
+template <>
+struct Table<Emitter> {
+  static constexpr std::string_view about = "A source of fluid";
+  static constexpr std::array<std::string_view, 2> one_of{"disc", "rect"};
+  static constexpr std::array<std::string_view, 2> one_of_too{"flow", "speed"};
+  static constexpr std::tuple fields{
+      Field{Info{.key = "name", .help = "name of the emitter; unique among emitters and drains, or empty"}, &Emitter::name},
+      alternative<DiscMouth>(Info{.key = "disc", .help = "round mouth"}, &Emitter::mouth),
+      alternative<RectMouth>(Info{.key = "rect", .help = "rectangular mouth"}, &Emitter::mouth),
+      Field{Info{.key = "flow", .unit = "m^3/s", .range = above(0), .help = "volume per time"}, &Emitter::flow},
+      Field{Info{.key = "speed", .unit = "m/s", .range = above(0), .help = "speed in the mouth: flow over its area"}, &Emitter::speed},
+      Field{Info{.key = "from", .unit = "s", .range = atLeast(0), .help = "time of its start"}, &Emitter::from},
+      Field{Info{.key = "until",
+                 .unit = "s",
+                 .range = above(0),
+                 .help = "time of its end, later than from; without it, it has none",
+                 .unset = ""},
+            &Emitter::until}};
+};
+
+template <>
+struct Table<Drain> {
+  static constexpr std::string_view about = "A volume that removes the particles in it";
+  static constexpr std::array<std::string_view, 2> one_of{"box", "sphere"};
+  static constexpr std::tuple fields{
+      Field{Info{.key = "name", .help = "name of the drain; unique among emitters and drains, or empty"}, &Drain::name},
+      alternative<BoxShape>(Info{.key = "box", .help = "corners"}, &Drain::shape),
+      alternative<SphereShape>(Info{.key = "sphere", .help = "center and radius"}, &Drain::shape),
+      Field{Info{.key = "from", .unit = "s", .range = atLeast(0), .help = "time of its start"}, &Drain::from},
+      Field{Info{.key = "until",
+                 .unit = "s",
+                 .range = above(0),
+                 .help = "time of its end, later than from; without it, it has none",
+                 .unset = ""},
+            &Drain::until}};
+};
+
+}  // namespace rill::model

@@ -1,0 +1,59 @@
+// The rules of emitters and drains.
+#include <algorithm>
+#include <unordered_map>
+
+#include "core/vector_math.hpp"
+#include "core/words.hpp"
+#include "model/rules.hpp"
+
+namespace rill::model {
+namespace {
+
+/// Of numbers that fit a float, the length and products of such lengths fit a double.
+CheckResult hasDirection(const Double3& v, std::string_view key) {
+  if (length(v) > 0) return {};
+  return Fault{"found a vector of zero length, expected a direction", {std::string(key)}};
+}
+
+template <class Timed>
+CheckResult endsAfterStart(const Timed& flow) {
+  if (!flow.until || *flow.until > flow.from) return {};
+  return Fault{"found " + shortestNumber(*flow.until) + " s, expected a time later than from, " + shortestNumber(flow.from) + " s",
+               {"until", "from"}};
+}
+
+}  // namespace
+
+CheckResult checkRules(const DiscMouth& mouth) { return hasDirection(mouth.normal, "normal"); }
+
+CheckResult checkRules(const RectMouth& mouth) {
+  if (CheckResult fault = hasDirection(mouth.normal, "normal")) return fault;
+  if (CheckResult fault = hasDirection(mouth.up, "up")) return fault;
+  constexpr double kParallel = 1e-6;  // sine of the angle; less is lost in 32-bit floats
+  if (length(cross(mouth.normal, mouth.up)) > kParallel * length(mouth.normal) * length(mouth.up)) return {};
+  return Fault{"found " + roundedPlace(mouth.up) + ", which is parallel to the normal; expected another direction", {"up", "normal"}};
+}
+
+CheckResult checkRules(const Emitter& emitter) { return endsAfterStart(emitter); }
+CheckResult checkRules(const Drain& drain) { return endsAfterStart(drain); }
+
+CheckResult collectFlowNames(const Scene& scene, std::vector<std::string_view>& names) {
+  std::unordered_map<std::string_view, std::string> seen;
+  const auto collect = [&](const auto& entries, std::string_view list) -> CheckResult {
+    for (size_t i = 0; i < entries.size(); ++i) {
+      const std::string& name = entries[i].name;
+      if (name.empty()) continue;
+      const std::string path = elementPath(list, i);
+      const auto [first, fresh] = seen.emplace(name, path);
+      if (!fresh)
+        return Fault{inQuotes(name) + " is also the name of " + first->second + "; expected unique names among emitters and drains",
+                     {memberPath(path, "name")}};
+      names.push_back(name);
+    }
+    return {};
+  };
+  if (CheckResult fault = collect(scene.emitters, "emitters")) return fault;
+  return collect(scene.drains, "drains");
+}
+
+}  // namespace rill::model
