@@ -10,6 +10,7 @@
 #include "fill/host_memory.hpp"
 #include "fill/inside_solids.hpp"
 #include "fill/lattice.hpp"
+#include "fill/mouth.hpp"
 #include "fill/ply_reader.hpp"
 #include "fill/point_hash.hpp"
 #include "rill/scene_io.hpp"
@@ -294,6 +295,13 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
     all.add(own.high[0], own.high[1], own.high[2]);
   }
 
+  if (all.empty()) {
+    for (const Emitter& emitter : scene.emitters) {
+      const Double3 p = centerOf(emitter.mouth);
+      all.add(p.x, p.y, p.z);
+    }
+  }
+
   ParticleSet set;
   for (int axis = 0; axis < 3; ++axis) {
     if (scene.domain) {
@@ -384,12 +392,16 @@ Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   }
   const bool by_count = scene.fluid.particles > 0;
   auto set = by_count ? placeByCount(scene, sources, limit) : place(scene, sources, limit);
-  if (set && !by_count) set->spacing = scene.fluid.spacing;
-  if (set && set->positions.empty() && !scene.fill.empty()) {
+  if (!set) return set;
+  if (!by_count) set->spacing = scene.fluid.spacing;
+  if (set->positions.empty() && !scene.fill.empty()) {
     return badInput(scene, "fill: no particles are left (" + grouped(set->leftOutDomain) + " outside the walls, " +
                                grouped(set->leftOutSolid) + " inside solids); expected at least one" +
                                (set->warnings.empty() ? "" : ". " + set->warnings.front().substr(prefixOf(scene).size())));
   }
+  if (const uint64_t capacity = scene.fluid.capacity, filled = set->positions.size(); capacity > 0 && filled > capacity)
+    return badInput(scene, "fluid.capacity: found " + grouped(capacity) + ", but the fills make " + grouped(filled) +
+                               " particles; expected at least as many");
   return set;
 }
 

@@ -36,6 +36,7 @@ int fuzzScene(const uint8_t* data, size_t size) {
   }
   RILL_REQUIRE(particles->positions.size() <= 2000 && particles->velocities.size() == particles->positions.size());
   scene->fluid.spacing = particles->spacing;
+  RILL_REQUIRE(capacityOf(*scene, particles->positions.size()) <= kMaxParticles);
   const auto setup = makeFluidSetup(
       *scene, {.capacity = static_cast<uint32_t>(particles->positions.size()), .origin = particles->origin, .extent = {1, 1, 1}});
   RILL_REQUIRE(setup || !setup.error().message.empty());

@@ -123,6 +123,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
     (void)fluidMemory(scene, 1000);
     const auto made = makeParticles(scene, 3000);
     if (made) scene.fluid.spacing = made->spacing;
+    EXPECT_LE(capacityOf(scene, 1000), kMaxParticles) << round;
     const auto setup = makeFluidSetup(scene, made ? figuresOf(*made) : StartFigures{.capacity = 100, .extent = {1, 1, 1}});
     if (!checked) {
       ++rejected;

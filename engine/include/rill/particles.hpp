@@ -22,7 +22,7 @@ namespace rill {
 inline constexpr uint64_t kMaxParticles = uint64_t{1} << 26;
 
 /// Initial particles of a simulation, in the order of the fills. Positions are relative to `origin` (the domain's minimum, or the
-/// fluid's center rounded to whole spacings), so that precision does not depend on the location of the scene.
+/// center of the fluid or else of the mouths, rounded to whole spacings), so that precision does not depend on the location of the scene.
 struct ParticleSet {
   Double3 origin = {0, 0, 0};           ///< m, scene coordinates
   double spacing = 0;                   ///< m, of the particles at rest, as fluid.spacing if the scene has it; 0: that of the scene
@@ -37,7 +37,12 @@ struct ParticleSet {
 /// Makes the particles of the scene's fills and reads their PLY files. If `fluid.particles` is given, computes the spacing, which is in the
 /// set: Fluid::create() takes it from there; what else needs the scene's spacing gets it by `scene.fluid.spacing = set.spacing`. Counts are
 /// checked against `maxParticles` before anything is allocated. BadInput if the scene is invalid, a file cannot be read, there are too many
-/// particles, or fills are given and no particles are left; OutOfMemory.
+/// particles (also for `fluid.capacity`), or fills are given and no particles are left; OutOfMemory.
 RILL_API Expected<ParticleSet> makeParticles(const Scene& scene, uint64_t maxParticles = kMaxParticles);
+
+/// The number of particles that a fluid of the scene needs room for: `fluid.capacity` if given, otherwise `filled`, those at the start, and
+/// what emitters can add in `duration`: a layer of each mouth, and flow x time of the flow / spacing^3. At most kMaxParticles.
+/// `scene.fluid.spacing` must be set.
+RILL_API uint64_t capacityOf(const Scene& scene, uint64_t filled);
 
 }  // namespace rill

@@ -1,0 +1,62 @@
+#include "fill/mouth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/overloaded.hpp"
+#include "core/vector_math.hpp"
+
+namespace rill {
+namespace {
+
+Double3 unit(const Double3& v) { return along({}, 1 / length(v), v); }
+
+/// The axis that is most nearly across `v`.
+Double3 axisAcross(const Double3& v) {
+  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  return x <= y && x <= z ? Double3{1, 0, 0} : y <= z ? Double3{0, 1, 0} : Double3{0, 0, 1};
+}
+
+/// Centers of the cells of a grid over a rectangle, those that `inside` takes; its arguments are -1 .. 1.
+template <class Inside>
+std::vector<Double3> gridOf(const RectMouth& mouth, double spacing, const Inside& inside) {
+  const Double3 across = unit(cross(mouth.normal, mouth.up)), up = unit(cross(across, mouth.normal));
+  const double size[2] = {mouth.size.first, mouth.size.second};
+  int count[2];
+  for (int i = 0; i < 2; ++i) {
+    constexpr double kMax = 16;
+    count[i] = static_cast<int>(std::clamp(std::round(size[i] / spacing), 1.0, kMax));
+  }
+  std::vector<Double3> points;
+  for (int j = 0; j < count[1]; ++j) {
+    for (int i = 0; i < count[0]; ++i) {
+      const double u = (2 * i + 1.0) / count[0] - 1, v = (2 * j + 1.0) / count[1] - 1;
+      if (inside(u, v)) points.push_back(along(along(mouth.center, u * size[0] / 2, across), v * size[1] / 2, up));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+double areaOf(const Mouth& mouth) {
+  return std::visit(Overloaded{[](const DiscMouth& disc) { return std::numbers::pi * disc.radius * disc.radius; },
+                               [](const RectMouth& rect) { return rect.size.first * rect.size.second; }},
+                    mouth);
+}
+
+Double3 centerOf(const Mouth& mouth) {
+  return std::visit([](const auto& shape) { return shape.center; }, mouth);
+}
+
+double flowOf(const Emitter& emitter) { return emitter.flow > 0 ? emitter.flow : emitter.speed * areaOf(emitter.mouth); }
+
+std::vector<Double3> samplesOf(const Mouth& mouth, double spacing) {
+  if (const auto* rect = std::get_if<RectMouth>(&mouth)) return gridOf(*rect, spacing, [](double, double) { return true; });
+  const auto& disc = std::get<DiscMouth>(mouth);
+  const RectMouth square{disc.center, {2 * disc.radius, 2 * disc.radius}, disc.normal, axisAcross(disc.normal)};
+  return gridOf(square, spacing, [](double u, double v) { return u * u + v * v < 1; });
+}
+
+}  // namespace rill

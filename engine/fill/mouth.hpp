@@ -1,0 +1,19 @@
+#pragma once
+// The mouths of emitters as sets of points, and their flow.
+#include <vector>
+
+#include "rill/scene.hpp"
+
+namespace rill {
+
+/// m^2.
+double areaOf(const Mouth& mouth);
+/// m, scene coordinates.
+Double3 centerOf(const Mouth& mouth);
+/// m^3/s, from `flow` or `speed`.
+double flowOf(const Emitter& emitter);
+
+/// Points inside the mouth, about `spacing` (m) apart but at most 16 along each direction; at least one. m, scene coordinates.
+std::vector<Double3> samplesOf(const Mouth& mouth, double spacing);
+
+}  // namespace rill
