@@ -42,17 +42,18 @@ InsideSolids::InsideSolids(std::span<const Solid> solids, double spacing) {
   }
 }
 
-bool InsideSolids::contain(const Double3& p, double margin) const {
+std::optional<size_t> InsideSolids::find(const Double3& p, double margin) const {
   for (size_t axis = 0; axis < 3; ++axis) {
-    if (!(p[axis] > low_[axis] && p[axis] < high_[axis])) return false;
+    if (!(p[axis] > low_[axis] && p[axis] < high_[axis])) return {};
   }
   const auto& near = inCell_[(cellAlong(2, p[2]) * cells_ + cellAlong(1, p[1])) * cells_ + cellAlong(0, p[0])];
-  return std::any_of(near.begin(), near.end(), [&](uint32_t i) {
+  const auto first = std::find_if(near.begin(), near.end(), [&](uint32_t i) {
     const Body& body = bodies_[i];
     for (size_t axis = 0; axis < 3; ++axis)
       if (p[axis] < body.box.low[axis] || p[axis] > body.box.high[axis]) return false;
     return surfaceAt(body.shape, body.pose, p).distance - body.shell < -margin;
   });
+  return first == near.end() ? std::nullopt : std::optional<size_t>(*first);
 }
 
 }  // namespace rill

@@ -1,6 +1,7 @@
 #pragma once
 // Tests whether points are inside solids at time 0.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,9 @@ class InsideSolids {
   /// `spacing`: of the fluid, m.
   InsideSolids(std::span<const Solid> solids, double spacing);
 
-  /// Whether p (m, scene coordinates) is deeper than `margin` (m) inside a solid.
-  bool contain(const Double3& p, double margin) const;
+  /// Index of the first solid that has p (m, scene coordinates) deeper than `margin` (m) inside.
+  std::optional<size_t> find(const Double3& p, double margin) const;
+  bool contain(const Double3& p, double margin) const { return find(p, margin).has_value(); }
 
  private:
   struct Body {

@@ -7,12 +7,14 @@
 #include <optional>
 
 #include "core/words.hpp"
+#include "fill/blocked_mouths.hpp"
 #include "fill/host_memory.hpp"
 #include "fill/inside_solids.hpp"
 #include "fill/lattice.hpp"
 #include "fill/mouth.hpp"
 #include "fill/ply_reader.hpp"
 #include "fill/point_hash.hpp"
+#include "fill/walls.hpp"
 #include "rill/scene_io.hpp"
 
 namespace rill {
@@ -20,7 +22,7 @@ namespace {
 
 constexpr double kOverlap = 0.9;      // spacings: smallest distance between particles of two fills
 constexpr double kCoincident = 1e-3;  // spacings: closer particles of one file are coincident
-constexpr double kSlack = 1e-4;       // spacings: rounding tolerance at walls and solids
+constexpr double kSlack = kWallSlack;
 constexpr size_t kMaxWarnings = 20;
 
 /// A fill and the particles that it describes.
@@ -116,7 +118,7 @@ class Placer {
       lattice[axis] = p[axis] - out_.origin[axis];
       at[axis] = jitter > 0 ? p[axis] + jitter * randomSigned(scene_.seed, fill, number, static_cast<uint64_t>(axis)) : p[axis];
     }
-    if (beyondWall(at)) {
+    if (beyondWall(scene_.domain, at, kSlack * spacing_)) {
       ++source.domain;
     } else if (solids_.contain(at, kSlack * spacing_)) {
       ++source.solid;
@@ -132,26 +134,15 @@ class Placer {
   }
 
  private:
-  bool closed(int side) const { return (scene_.domain->open >> side & 1) == 0; }
-
-  bool beyondWall(const Double3& p) const {
-    if (!scene_.domain) return false;
-    const double slack = kSlack * spacing_;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (p[axis] < scene_.domain->min[axis] - slack && closed(2 * axis)) return true;
-      if (p[axis] > scene_.domain->max[axis] + slack && closed(2 * axis + 1)) return true;
-    }
-    return false;
-  }
-
   /// Position relative to the origin, clamped to closed walls against rounding.
   Float3 relative(const Double3& p) const {
     float r[3];
     for (int axis = 0; axis < 3; ++axis) {
       r[axis] = static_cast<float>(p[axis] - out_.origin[axis]);
       if (!scene_.domain) continue;
-      if (closed(2 * axis)) r[axis] = std::max(r[axis], 0.0F);
-      if (closed(2 * axis + 1)) r[axis] = std::min(r[axis], static_cast<float>(scene_.domain->max[axis] - scene_.domain->min[axis]));
+      if (isClosed(*scene_.domain, 2 * axis)) r[axis] = std::max(r[axis], 0.0F);
+      if (isClosed(*scene_.domain, 2 * axis + 1))
+        r[axis] = std::min(r[axis], static_cast<float>(scene_.domain->max[axis] - scene_.domain->min[axis]));
     }
     return {r[0], r[1], r[2]};
   }
@@ -377,6 +368,14 @@ Expected<ParticleSet> placeByCount(const Scene& given, std::vector<Source>& sour
   return best;
 }
 
+/// Warns of blocked mouths, the first ones.
+void addMouthWarnings(const Scene& scene, ParticleSet& set) {
+  const std::vector<std::string> all = blockedMouths(scene, set.spacing);
+  const size_t shown = std::min(all.size(), kMaxWarnings);
+  for (size_t i = 0; i < shown; ++i) set.warnings.push_back(prefixOf(scene) + all[i]);
+  if (shown < all.size()) set.warnings.push_back("and " + grouped(all.size() - shown) + " more warnings about emitters");
+}
+
 Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   if (auto possible = checkScene(scene); !possible) return possible.error();
   constexpr uint64_t kIds = std::numeric_limits<uint32_t>::max();  // ids have 32 bits, and one value marks "no particle"
@@ -402,6 +401,7 @@ Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   if (const uint64_t capacity = scene.fluid.capacity, filled = set->positions.size(); capacity > 0 && filled > capacity)
     return badInput(scene, "fluid.capacity: found " + grouped(capacity) + ", but the fills make " + grouped(filled) +
                                " particles; expected at least as many");
+  addMouthWarnings(scene, *set);
   return set;
 }
 

@@ -37,7 +37,8 @@ struct ParticleSet {
 /// Makes the particles of the scene's fills and reads their PLY files. If `fluid.particles` is given, computes the spacing, which is in the
 /// set: Fluid::create() takes it from there; what else needs the scene's spacing gets it by `scene.fluid.spacing = set.spacing`. Counts are
 /// checked against `maxParticles` before anything is allocated. BadInput if the scene is invalid, a file cannot be read, there are too many
-/// particles (also for `fluid.capacity`), or fills are given and no particles are left; OutOfMemory.
+/// particles (also for `fluid.capacity`), or fills are given and no particles are left; OutOfMemory. Mouths of emitters that are blocked at
+/// the start are warnings.
 RILL_API Expected<ParticleSet> makeParticles(const Scene& scene, uint64_t maxParticles = kMaxParticles);
 
 /// The number of particles that a fluid of the scene needs room for: `fluid.capacity` if given, otherwise `filled`, those at the start, and
