@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/vector_math.hpp"
+#include "fill/mouth.hpp"
 #include "fluid/numbers.hpp"
 
 namespace rill {
@@ -28,7 +28,6 @@ std::vector<std::array<double, 2>> pointsInCircle(double radius, const std::arra
 // Of three ways to center the lattice, the one whose number of points is nearest to the area's. Its pitch is then scaled so that it is the
 // area's.
 void fillDisc(double radius, double spacing, MouthLattice& lattice) {
-  lattice.area = std::numbers::pi * radius * radius;
   const double wanted = lattice.area / (spacing * spacing);
   std::vector<std::array<double, 2>> best = {{0, 0}};
   for (const std::array<double, 2>& first : {std::array{0.0, 0.0}, {0.5, 0.5}, {0.5, 0.0}}) {
@@ -41,7 +40,6 @@ void fillDisc(double radius, double spacing, MouthLattice& lattice) {
 }
 
 void fillRect(const std::pair<double, double>& size, double spacing, MouthLattice& lattice) {
-  lattice.area = size.first * size.second;
   const double columns = std::max(1.0, std::round(size.first / spacing)), rows = std::max(1.0, std::round(size.second / spacing));
   for (double j = 0; j < rows; ++j)
     for (double i = 0; i < columns; ++i)
@@ -74,6 +72,7 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing) {
   lattice.normal = unit(disc ? disc->normal : rect->normal);
   lattice.across = disc ? anyAcross(lattice.normal) : unit(cross(lattice.normal, unit(rect->up)));
   lattice.up = cross(lattice.across, lattice.normal);
+  lattice.area = areaOf(mouth);
   lattice.half = disc ? std::pair{disc->radius, disc->radius} : std::pair{rect->size.first / 2, rect->size.second / 2};
   if (disc)
     fillDisc(disc->radius, spacing, lattice);
@@ -99,7 +98,7 @@ void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
   for (const Emitter& emitter : scene.emitters) {
     const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
     EmitterRecord r{};
-    setMouth(r, lattice, origin, emitter.speed > 0 ? emitter.speed : emitter.flow / lattice.area);
+    setMouth(r, lattice, origin, flowOf(emitter) / lattice.area);
     r.from = f(emitter.from);
     r.until = secondsOrNever(emitter.until);
     r.firstPoint = static_cast<uint32_t>(setup.mouthPoints.size());
@@ -113,18 +112,6 @@ void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
   setup.params.emitterCount = static_cast<uint32_t>(setup.emitters.size());
   setup.params.drainCount = static_cast<uint32_t>(setup.drains.size());
   setup.params.openRemoves = removesAtSides(scene) ? scene.domain->open : 0u;
-}
-
-uint64_t capacityOf(const Scene& scene, uint64_t filled) {
-  if (scene.fluid.capacity > 0) return scene.fluid.capacity;
-  double more = 0;
-  for (const Emitter& emitter : scene.emitters) {
-    const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
-    const double flow = emitter.flow > 0 ? emitter.flow : emitter.speed * lattice.area;
-    const double open = std::max(0.0, std::min(scene.duration, emitter.until.value_or(scene.duration)) - emitter.from);
-    more += std::ceil(flow * open / std::pow(scene.fluid.spacing, 3)) + double(lattice.points.size());
-  }
-  return filled + uint64_t(more);
 }
 
 FlowRecord firstLedger(uint32_t particles, uint32_t inactive) { return {.filled = particles, .inactive = inactive, .nextId = particles}; }

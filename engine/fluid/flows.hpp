@@ -26,8 +26,6 @@ void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup);
 /// What a host may change of an emitter while it runs: the first words of its record, up to `from`.
 void setMouth(EmitterRecord& record, const MouthLattice& lattice, const Double3& origin, double speed);
 
-uint64_t capacityOf(const Scene& scene, uint64_t filled);
-
 /// The ledger of a fluid that starts with `particles`, of which some are inactive.
 FlowRecord firstLedger(uint32_t particles, uint32_t inactive);
 
