@@ -23,7 +23,8 @@ bool drainHolds(uint k, vec3 x) {
 
 // Sides as bits -x +x -y +y -z +z.
 bool hasLeft(vec3 x) {
-  vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ), high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
+  vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ);
+  vec3 high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
   uint beyond = 0u;
   for (uint a = 0u; a < 3u; ++a) beyond |= uint(x[a] < low[a]) << (2u * a) | uint(x[a] > high[a]) << (2u * a + 1u);
   return (beyond & params.openRemoves) != 0u;
