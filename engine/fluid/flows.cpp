@@ -82,23 +82,28 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing) {
   return lattice;
 }
 
-void setMouth(EmitterRecord& r, const MouthLattice& lattice, const Double3& origin, double speed) {
-  const Double3 center = minus(lattice.center, origin);
-  r.centerX = f(center.x), r.centerY = f(center.y), r.centerZ = f(center.z);
-  r.normalX = f(lattice.normal.x), r.normalY = f(lattice.normal.y), r.normalZ = f(lattice.normal.z);
-  r.acrossX = f(lattice.across.x), r.acrossY = f(lattice.across.y), r.acrossZ = f(lattice.across.z);
-  r.upX = f(lattice.up.x), r.upY = f(lattice.up.y), r.upZ = f(lattice.up.z);
-  r.halfAcross = f(lattice.half.first);
-  r.halfUp = f(lattice.half.second);
-  r.speed = f(speed);
-  r.rate = f(speed / lattice.thickness);
+void place(EmitterRecord& r, const Double3& center) { r.centerX = f(center.x), r.centerY = f(center.y), r.centerZ = f(center.z); }
+
+void setAxes(EmitterRecord& r, const Double3& normal, const Double3& across, const Double3& up) {
+  r.normalX = f(normal.x), r.normalY = f(normal.y), r.normalZ = f(normal.z);
+  r.acrossX = f(across.x), r.acrossY = f(across.y), r.acrossZ = f(across.z);
+  r.upX = f(up.x), r.upY = f(up.y), r.upZ = f(up.z);
+}
+
+void setFlow(EmitterRecord& r, const MouthSize& size, double flow) {
+  r.speed = f(flow / size.area);
+  r.rate = f(flow / size.area / size.thickness);
 }
 
 void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
   for (const Emitter& emitter : scene.emitters) {
     const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
     EmitterRecord r{};
-    setMouth(r, lattice, origin, flowOf(emitter) / lattice.area);
+    place(r, minus(lattice.center, origin));
+    setAxes(r, lattice.normal, lattice.across, lattice.up);
+    r.halfAcross = f(lattice.half.first);
+    r.halfUp = f(lattice.half.second);
+    setFlow(r, {lattice.area, lattice.thickness}, flowOf(emitter));
     r.from = f(emitter.from);
     r.until = secondsOrNever(emitter.until);
     r.firstPoint = static_cast<uint32_t>(setup.mouthPoints.size());
@@ -107,6 +112,7 @@ void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
     r.phase = kHalfLayer;
     setup.mouthPoints.insert(setup.mouthPoints.end(), lattice.points.begin(), lattice.points.end());
     setup.emitters.push_back(r);
+    setup.mouthSizes.push_back({lattice.area, lattice.thickness});
   }
   for (const Drain& drain : scene.drains) setup.drains.push_back(recordOf(drain, origin));
   setup.params.emitterCount = static_cast<uint32_t>(setup.emitters.size());

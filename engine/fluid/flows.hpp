@@ -23,8 +23,11 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing);
 /// The records of a scene's emitters and drains at its start.
 void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup);
 
-/// What a host may change of an emitter while it runs: the first words of its record, up to `from`.
-void setMouth(EmitterRecord& record, const MouthLattice& lattice, const Double3& origin, double speed);
+/// What a host may change of an emitter while it runs: the words of its record before `from`. `center`: m, relative to the particles'
+/// origin. The axes are unit vectors.
+void place(EmitterRecord& record, const Double3& center);
+void setAxes(EmitterRecord& record, const Double3& normal, const Double3& across, const Double3& up);
+void setFlow(EmitterRecord& record, const MouthSize& size, double flow);
 
 /// The ledger of a fluid that starts with `particles`, of which some are inactive.
 FlowRecord firstLedger(uint32_t particles, uint32_t inactive);

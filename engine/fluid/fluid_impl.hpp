@@ -135,6 +135,10 @@ class FluidImpl {
   /// What is wrong with FluidStep::pulls; empty if nothing.
   std::string faultOfPulls(const FluidStep& step) const;
   void declarePulls(Graph& graph, std::span<const BodyPull> pulls);
+  // taps.cpp
+  /// What is wrong with FluidStep::emitters; empty if nothing.
+  std::string faultOfEmitters(const FluidStep& step) const;
+  void declareEmitters(Graph& graph, const FluidStep& step);
   // passes.cpp
   FluidState described() const;  ///< without buffers
   bool validate(Graph& graph, const FluidStep& step) const;

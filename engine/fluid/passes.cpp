@@ -116,6 +116,7 @@ bool FluidImpl::validate(Graph& graph, const FluidStep& step) const {
                      shortestNumber(w) + "); expected a finite quaternion x y z w of a length above 0");
   }
   if (const std::string fault = faultOfPulls(step); !fault.empty()) return invalid(fault);
+  if (const std::string fault = faultOfEmitters(step); !fault.empty()) return invalid(fault);
   return true;
 }
 
@@ -148,6 +149,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (!step.resume && step.advance_s > 0 && !setup.driven.empty()) declareDrive(graph, step);
   const std::span<const BodyPull> pulls = !step.resume && step.advance_s > 0 ? step.pulls : std::span<const BodyPull>();
   if (!pulls.empty()) declarePulls(graph, pulls);
+  if (!step.resume) declareEmitters(graph, step);
   if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0), step.queued, pulls.size());
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), setup.substepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {

@@ -45,6 +45,12 @@ struct DrivenSolid {
   PoseRecord pose{};   ///< relative to the particles' origin, at the end of the last advance that was declared; velocities are unused
 };
 
+/// What turns a flow into a speed, and that into layers.
+struct MouthSize {
+  double area = 0;       ///< m^2
+  double thickness = 0;  ///< m, of a layer of particles
+};
+
 struct FluidSetup {
   FluidParams params{};
   GridSize grid;
@@ -55,6 +61,7 @@ struct FluidSetup {
   std::vector<PressureProbeRecord> pressureProbes;       ///< in the order of the scene's probes
   std::vector<EmitterRecord> emitters;                   ///< in the order of the scene's
   std::vector<std::array<float, 2>> mouthPoints;         ///< of their layers, m
+  std::vector<MouthSize> mouthSizes;                     ///< of the emitters
   std::vector<DrainRecord> drains;                       ///< in the order of the scene's
   std::vector<uint32_t> meshWords;                       ///< the fields of all meshes (mesh_field.h)
   std::vector<float> keyframes;                          ///< KeyframeRecords

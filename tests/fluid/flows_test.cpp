@@ -218,6 +218,57 @@ TEST_F(FlowsTest, SolidsAndWallsBlockParticleByParticle) {
   EXPECT_GT(run->stats().emitterBlocked_s, 0.1);
 }
 
+TEST_F(FlowsTest, FollowsTheHostsTap) {
+  Trial t = space();
+  t.scene.emitters = {disc({0, 0, 0}, 0.15, {1, 0, 0}, 1), disc({0, 3, 0}, 0.15, {1, 0, 0}, 1)};
+  const MouthLattice lattice = mouthLattice(t.scene.emitters[0].mouth, t.d());
+  auto run = start(t);
+  double volume = 0;
+  std::map<uint32_t, std::pair<glm::dvec3, glm::dvec3>> before;
+  for (const auto& [flow, center, normal] : {std::tuple{0.0, Double3{0, 0, 0}, Double3{1, 0, 0}},
+                                             {0.05, {0, 0, 0}, {0, 0, 3}},
+                                             {0.12, {-2, 0, 0}, {-1, 0, 0}},
+                                             {0.0, {-2, 0, 0}, {-1, 0, 0}},
+                                             {0.08, {0, 0, -4}, {0.1, -0.2, -1}}}) {
+    run->emitters = {{.emitter = 0, .flow = flow, .center = center, .normal = normal}};
+    run->advance(0.05);
+    run->advance(0.05);
+    volume += 0.1 * flow;
+    EXPECT_NEAR(run->fluid().emitted()[0].volume, volume, lattice.area * lattice.thickness);
+    auto now = particles(run->saved());
+    const double speed = flow / lattice.area;
+    size_t born = 0;
+    for (const auto& [id, particle] : now) {
+      if (before.contains(id) || std::abs(particle.first.y - 3) < 0.3) continue;
+      const glm::dvec3 from = particle.first - vec(center), along = glm::normalize(vec(normal));
+      EXPECT_LT(glm::length(from - glm::dot(from, along) * along), 0.2) << id;
+      EXPECT_LT(glm::dot(from, along), speed * 0.1 + t.d()) << id;
+      EXPECT_NEAR(glm::dot(particle.second, along), speed, 0.1 * speed) << id;
+      ++born;
+    }
+    EXPECT_EQ(born > 0, flow > 0);
+    before = std::move(now);
+  }
+}
+
+TEST_F(FlowsTest, RejectsInvalidEmitterTargets) {
+  Trial t = space();
+  t.scene.emitters = {disc({0, 0, 0}, 0.15, {1, 0, 0}, 1)};
+  auto run = start(t);
+  const double nan = std::nan("");
+  for (const auto& [target, message] : {std::pair{EmitterTarget{.emitter = 1}, "emitters[0].emitter is 1; the scene has 1 emitter"},
+                                        {EmitterTarget{.flow = -1}, "emitters[0].flow is -1; expected"},
+                                        {EmitterTarget{.flow = nan}, "emitters[0].flow is"},
+                                        {EmitterTarget{.flow = 1, .center = Double3{0, nan, 0}}, "emitters[0].center is"},
+                                        {EmitterTarget{.flow = 1, .normal = Double3{0, 0, 0}}, "emitters[0].normal is"}}) {
+    Graph graph;
+    run->fluid().addTo(graph, {.advance_s = 0.01, .emitters = std::span(&target, 1)});
+    const auto compiled = graph.compile();
+    ASSERT_FALSE(compiled);
+    EXPECT_NE(compiled.error().message.find(message), std::string::npos) << compiled.error().message;
+  }
+}
+
 /// A tank with all of it.
 Trial busyTank() {
   Trial t = tank();

@@ -239,7 +239,9 @@ void FluidTest::Run::advance(double seconds, uint32_t piece) {
   bool resume = false;
   do {
     graph_.reset();
-    fluid_->addTo(graph_, {.advance_s = seconds, .resume = resume, .substeps = piece, .targets = targets, .pulls = pulls});
+    fluid_->addTo(graph_,
+                  {.advance_s = seconds, .resume = resume, .substeps = piece, .targets = targets, .pulls = pulls, .emitters = emitters});
+    emitters.clear();
     test_.runGraph(graph_);
     if (HasFatalFailure()) return;
     resume = true;

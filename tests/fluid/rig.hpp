@@ -107,8 +107,9 @@ class FluidTest : public GpuTest {
     const FluidProgress& progress() const { return fluid_->progress(); }
     Fluid& fluid() { return *fluid_; }
 
-    std::vector<SolidTarget> targets;  ///< of the next advances
-    std::vector<BodyPull> pulls;       ///< likewise
+    std::vector<SolidTarget> targets;     ///< of the next advances
+    std::vector<BodyPull> pulls;          ///< likewise
+    std::vector<EmitterTarget> emitters;  ///< of the next advance alone
 
    private:
     FluidTest& test_;

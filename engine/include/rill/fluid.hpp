@@ -128,6 +128,14 @@ struct BodyPull {
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 };
 
+/// What an emitter does from the begin of an advance on, until the next target for it: a tap in a host's hand.
+struct EmitterTarget {
+  uint32_t emitter = 0;                ///< index into Scene::emitters; its times `from` and `until` still apply
+  double flow = 0;                     ///< m^3/s, >= 0; 0: closed
+  std::optional<Double3> center = {};  ///< of the mouth, m; none: it stays
+  std::optional<Double3> normal = {};  ///< direction of the flow, of any length above 0; none: it stays. The mouth turns the shorter way
+};
+
 /// Parameters of Fluid::addTo().
 struct FluidStep {
   double advance_s = 0;    ///< simulated time to advance by, s, >= 0; ignored with `resume`
@@ -141,8 +149,11 @@ struct FluidStep {
   /// Springs that pull bodies during the advance, at most 64. Several on one body act one after another. Not kept after addTo(). Ignored
   /// with `resume`, and until simulated time begins.
   std::span<const BodyPull> pulls = {};
+  /// Changes of emitters. One of a frame that is not executed has no effect. Not kept after addTo(). Ignored with `resume`.
+  std::span<const EmitterTarget> emitters = {};
   /// The advance begins only if the last one has no time left when the device comes to it; else the last one continues, as with `resume`.
-  /// So the next advance can be recorded before the last is known to be complete. Not where solids are driven, nor with `pulls`: BadInput.
+  /// So the next advance can be recorded before the last is known to be complete. Not where solids are driven, nor with `pulls` or
+  /// `emitters`: BadInput.
   bool queued = false;
 };
 
