@@ -1,0 +1,55 @@
+// The keys that a checkpoint compares with a scene's.
+#include "offline/simulation_keys.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace rill::test {
+namespace {
+
+std::string valueOf(const SimulationKeys& keys, const std::string& key) {
+  const auto found = std::ranges::find(keys, key, &SimulationKeys::value_type::first);
+  return found == keys.end() ? "absent" : found->second;
+}
+
+Scene withFlows() {
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  scene.emitters = {{.name = "tap", .mouth = DiscMouth{.radius = 0.25}, .flow = 0.5},
+                    {.mouth = RectMouth{.size = {0.5, 0.25}}, .speed = 2, .until = 3}};
+  scene.drains = {{.name = "plug", .shape = SphereShape{{1, 2, 3}, 0.5}, .from = 1}};
+  scene.probes = {{.name = "rate", .flow = "tap"}};
+  return scene;
+}
+
+TEST(SimulationKeys, HaveEmittersAndDrains) {
+  const SimulationKeys keys = simulationKeys(withFlows(), {});
+  EXPECT_EQ(valueOf(keys, "emitters[0].disc.radius"), "0.25");
+  EXPECT_EQ(valueOf(keys, "emitters[0].flow"), "0.5");
+  EXPECT_EQ(valueOf(keys, "emitters[0].until"), "not set");
+  EXPECT_EQ(valueOf(keys, "emitters[0].rect.size"), "absent");
+  EXPECT_EQ(valueOf(keys, "emitters[1].rect.size"), "[0.5,0.25]");
+  EXPECT_EQ(valueOf(keys, "emitters[1].until"), "3");
+  EXPECT_EQ(valueOf(keys, "drains[0].sphere.center"), "[1,2,3]");
+  EXPECT_EQ(valueOf(keys, "solver.time_step"), "auto");
+}
+
+TEST(SimulationKeys, FindADifferentFlowButNoOtherName) {
+  const SimulationKeys keys = simulationKeys(withFlows(), {});
+  Scene other = withFlows();
+  other.emitters[0].name = "spout";
+  other.probes[0].flow = "spout";
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "");
+  other.emitters[0].until = 2;
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "emitters[0].until: found 2, expected not set");
+  other = withFlows();
+  std::get<RectMouth>(other.emitters[1].mouth).size.second = 1;
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "emitters[1].rect.size: found [0.5,1], expected [0.5,0.25]");
+  other = withFlows();
+  other.drains.clear();
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "drains[0].sphere.center: not set, expected [1,2,3]");
+}
+
+}  // namespace
+}  // namespace rill::test
