@@ -113,7 +113,7 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
   frame["fluids"] = Json::array({jsonOf(stats.ledger)});
-  if (!scene.emitters.empty()) frame["emitter_blocked_s"] = stats.emitterBlocked_s;
+  if (hasEmitters(scene)) frame["emitter_blocked_s"] = stats.emitterBlocked_s;
   if (stats.bodies)
     frame["bodies"] = {{"kinetic_J", stats.bodies->kinetic_J},
                        {"potential_J", stats.bodies->potential_J},
@@ -191,7 +191,7 @@ std::vector<Figure> Record::figures() const {
   const FluidLedger& ledger = last.ledger;
   for (const auto& [name, count] : {std::pair{"emitted", ledger.emitted}, {"drained", ledger.drained}, {"left", ledger.left}})
     figures.push_back({name, double(count), ""});
-  if (!scene_->emitters.empty()) figures.push_back({"emitter_blocked_s", last.emitterBlocked_s, "s"});
+  if (hasEmitters(*scene_)) figures.push_back({"emitter_blocked_s", last.emitterBlocked_s, "s"});
   if (bodyCount(*scene_) > 0) {
     const BodyFigures bodies = last.bodies.value_or(BodyFigures{});
     figures.push_back({"bodies.kinetic_J", bodies.kinetic_J, "J"});

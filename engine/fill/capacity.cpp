@@ -27,7 +27,7 @@ uint64_t capacityOf(const Scene& scene, uint64_t filled) {
   if (capacity == 0) {
     const double spacing = scene.fluid.spacing, volume = spacing * spacing * spacing;
     capacity = filled;
-    for (const Emitter& emitter : scene.emitters) {
+    for (const Emitter& emitter : emittersOf(scene)) {
       const double end = std::min(emitter.until.value_or(scene.duration), scene.duration);
       const double time = std::max(end - emitter.from, 0.0);
       capacity = sum(capacity, wholeNumber(flowOf(emitter) * time / volume));

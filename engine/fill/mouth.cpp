@@ -52,6 +52,27 @@ Double3 centerOf(const Mouth& mouth) {
 
 double flowOf(const Emitter& emitter) { return emitter.flow > 0 ? emitter.flow : emitter.speed * areaOf(emitter.mouth); }
 
+// The first layer's centers are half a spacing off the wall.
+std::vector<Emitter> emittersOf(const Scene& scene) {
+  std::vector<Emitter> all = scene.emitters;
+  if (!scene.domain || !scene.domain->inflow) return all;
+  const Domain& domain = *scene.domain;
+  const Inflow& inflow = *domain.inflow;
+  const size_t axis = sideBit(inflow.side) / 2, across = 2 - axis;
+  const bool high = sideBit(inflow.side) % 2 == 1;
+  const double spacing = scene.fluid.spacing;
+  Double3 center, normal;
+  center[axis] = high ? domain.max[axis] - spacing / 2 : domain.min[axis] + spacing / 2;
+  center[1] = domain.min[1] + inflow.level / 2;
+  center[across] = (domain.min[across] + domain.max[across]) / 2;
+  normal[axis] = high ? -1 : 1;
+  all.push_back({.name = "inflow",
+                 .mouth = RectMouth{center, {domain.max[across] - domain.min[across], inflow.level}, normal, {0, 1, 0}},
+                 .flow = inflow.flow,
+                 .speed = inflow.speed});
+  return all;
+}
+
 std::vector<Double3> samplesOf(const Mouth& mouth, double spacing) {
   if (const auto* rect = std::get_if<RectMouth>(&mouth)) return gridOf(*rect, spacing, [](double, double) { return true; });
   const auto& disc = std::get<DiscMouth>(mouth);

@@ -13,6 +13,9 @@ Double3 centerOf(const Mouth& mouth);
 /// m^3/s, from `flow` or `speed`.
 double flowOf(const Emitter& emitter);
 
+/// The scene's emitters, then that of the domain's inflow.
+std::vector<Emitter> emittersOf(const Scene& scene);
+
 /// Points inside the mouth, about `spacing` (m) apart but at most 16 along each direction; at least one. m, scene coordinates.
 std::vector<Double3> samplesOf(const Mouth& mouth, double spacing);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/vector_math.hpp"
+#include "core/words.hpp"
 #include "fill/mouth.hpp"
 #include "fluid/numbers.hpp"
 
@@ -47,6 +48,28 @@ void fillRect(const std::pair<double, double>& size, double spacing, MouthLattic
 }
 
 float secondsOrNever(const std::optional<double>& time) { return time ? f(std::min(*time, double{kNever})) : kNever; }
+
+/// Substeps move particles by cfl spacings at most, and there are max_substeps of them in 1/60 s.
+double fastestFollowed(const Scene& scene) { return scene.solver.cfl * scene.fluid.spacing * scene.solver.max_substeps * 60; }
+
+Expected<void> checkEmitter(const Scene& scene, const Emitter& emitter, const std::string& key, FluidSetup& setup) {
+  constexpr double kMaxPoints = 1 << 20, kMaxSpeed = 1e9;
+  const double spacing = scene.fluid.spacing, area = areaOf(emitter.mouth), points = area / (spacing * spacing);
+  const auto bad = [&](const std::string& what) {
+    return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + ": " + what};
+  };
+  if (!(points <= kMaxPoints))
+    return bad("its mouth takes " + roundedNumber(points) + " particles of fluid.spacing a layer; expected at most " +
+               grouped(static_cast<uint64_t>(kMaxPoints)));
+  const double speed = flowOf(emitter) / area;
+  if (!(speed <= kMaxSpeed))
+    return bad("fluid leaves its mouth at " + roundedNumber(speed) + " m/s; expected at most " + roundedNumber(kMaxSpeed) + " m/s");
+  if (const double most = fastestFollowed(scene); speed > most)
+    setup.warnings.push_back(key + ": fluid leaves its mouth at " + roundedNumber(speed) + " m/s; expected at most " + roundedNumber(most) +
+                             " m/s, a flow of " + roundedNumber(most * area) +
+                             " m^3/s, which solver.cfl and solver.max_substeps can follow: time is dropped");
+  return {};
+}
 
 DrainRecord recordOf(const Drain& drain, const Double3& origin) {
   DrainRecord r{};
@@ -95,8 +118,12 @@ void setFlow(EmitterRecord& r, const MouthSize& size, double flow) {
   r.rate = f(flow / size.area / size.thickness);
 }
 
-void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
-  for (const Emitter& emitter : scene.emitters) {
+Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
+  size_t number = 0;
+  for (const Emitter& emitter : emittersOf(scene)) {
+    const std::string key = number < scene.emitters.size() ? elementPath("emitters", number) : "domain.inflow";
+    ++number;
+    if (auto able = checkEmitter(scene, emitter, key, setup); !able) return able;
     const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
     EmitterRecord r{};
     place(r, minus(lattice.center, origin));
@@ -117,7 +144,14 @@ void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
   for (const Drain& drain : scene.drains) setup.drains.push_back(recordOf(drain, origin));
   setup.params.emitterCount = static_cast<uint32_t>(setup.emitters.size());
   setup.params.drainCount = static_cast<uint32_t>(setup.drains.size());
-  setup.params.openRemoves = removesAtSides(scene) ? scene.domain->open : 0u;
+  if (!scene.domain) return {};
+  const Domain& domain = *scene.domain;
+  if (domain.open_removes) setup.params.openRemoves = domain.open;
+  if (!domain.outflow) return {};
+  setup.params.openRemoves |= 1u << sideBit(domain.outflow->side);
+  setup.params.outflowSide = sideBit(domain.outflow->side);
+  setup.params.outflowLevel = f(domain.min.y + domain.outflow->level - origin.y);
+  return {};
 }
 
 FlowRecord firstLedger(uint32_t particles, uint32_t inactive) { return {.filled = particles, .inactive = inactive, .nextId = particles}; }

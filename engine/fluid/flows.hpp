@@ -20,8 +20,9 @@ struct MouthLattice {
 };
 MouthLattice mouthLattice(const Mouth& mouth, double spacing);
 
-/// The records of a scene's emitters and drains at its start.
-void addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup);
+/// The records of a scene's emitters and drains at its start. BadInput for a mouth with too many particles, or of a speed beyond any step.
+/// Warns of speeds that the steps cannot follow.
+Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup);
 
 /// What a host may change of an emitter while it runs: the words of its record before `from`. `center`: m, relative to the particles'
 /// origin. The axes are unit vectors.

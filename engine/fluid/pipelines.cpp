@@ -46,6 +46,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"NO_SLIP_WALLS", setup.noSlipWalls},
           {"NO_SLIP_SOLIDS", setup.noSlipSolids},
           {"REMOVES", setup.removes},
+          {"OUTFLOW", setup.params.outflowLevel < kNoWall},
           {"FORCES", hasForces(setup)},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

@@ -297,9 +297,10 @@ bool measuresLoads(const Scene& scene) {
   return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); }) || bodyCount(scene) > 0;
 }
 
-bool removesAtSides(const Scene& scene) { return scene.domain && scene.domain->open_removes && scene.domain->open != 0; }
-
-bool removes(const Scene& scene) { return !scene.emitters.empty() || !scene.drains.empty() || removesAtSides(scene); }
+bool removes(const Scene& scene) {
+  const bool sides = scene.domain && (scene.domain->open_removes || scene.domain->inflow || scene.domain->outflow);
+  return !scene.emitters.empty() || !scene.drains.empty() || sides;
+}
 
 size_t pressureProbeCount(const Scene& scene) {
   return static_cast<size_t>(std::ranges::count_if(scene.probes, [](const Probe& probe) { return probe.pressure.has_value(); }));
@@ -328,6 +329,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setup.kernel = scene.solver.kernel == KernelChoice::Wendland ? 0u : 1u;
 
   p.capacity = start.capacity;
+  p.outflowLevel = kNoWall;
   p.spacing = f(d);
   p.support = f(h);
   p.inverseSupport = f(1 / h);
@@ -375,7 +377,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.contactPoints = static_cast<uint32_t>(setup.contactPoints.size());
   p.bodySpeed = f(fastestBody(scene));
   addPressureProbes(scene, kernel, origin, setup);
-  addFlows(scene, origin, setup);
+  if (auto added = addFlows(scene, origin, setup); !added) return added.error();
   setup.removes = removes(scene);
   p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
   setViscosity(scene, kernel, setup);

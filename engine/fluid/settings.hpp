@@ -113,9 +113,6 @@ bool startsWarm(const Scene& scene);
 /// Whether a probe or a body needs loads on solids.
 bool measuresLoads(const Scene& scene);
 
-/// Whether particles leave for good through open sides of the domain.
-bool removesAtSides(const Scene& scene);
-
 /// Whether particles come and go while the scene runs.
 bool removes(const Scene& scene);
 

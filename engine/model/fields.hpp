@@ -13,7 +13,6 @@
 namespace rill::model {
 
 inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+y", "-z", "+z"};  // bits of SideMask
-inline constexpr std::array<std::string_view, 6> kAxisWords{"+x", "-x", "+y", "-y", "+z", "-z"};  // Axis
 inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "ink", "clay"};
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 
@@ -37,7 +36,10 @@ struct Table<Domain> {
                  .since = "0.2"},
             &Domain::open_removes},
       Field{Info{.key = "slip", .help = "false: fluid with a viscosity above 0 sticks to the walls (no-slip)", .since = "0.2"},
-            &Domain::slip}};
+            &Domain::slip},
+      Field{Info{.key = "inflow", .help = "a closed side through which fluid flows in", .since = "0.2"}, &Domain::inflow},
+      Field{Info{.key = "outflow", .help = "a closed side that is a wall up to a level; what flows over it is removed", .since = "0.2"},
+            &Domain::outflow}};
 };
 
 template <>

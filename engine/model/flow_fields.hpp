@@ -7,6 +7,8 @@
 
 namespace rill::model {
 
+inline constexpr std::array<std::string_view, 6> kAxisWords{"+x", "-x", "+y", "-y", "+z", "-z"};  // Axis
+
 inline constexpr size_t kMaxEmitters = 256, kMaxDrains = 256;
 
 template <>
@@ -66,6 +68,28 @@ struct Table<Drain> {
                  .help = "time of its end, later than from; without it, it has none",
                  .unset = ""},
             &Drain::until}};
+};
+
+template <>
+struct Table<Inflow> {
+  static constexpr std::string_view about = "Fluid that flows in through a side of the domain, over its width";
+  static constexpr std::array<std::string_view, 2> one_of{"flow", "speed"};
+  static constexpr std::tuple fields{
+      Field{Info{.key = "side", .help = "side of the domain, across x or z", .words = kAxisWords}, &Inflow::side},
+      Field{Info{.key = "level", .unit = "m", .range = above(0), .help = "depth of the flow: height above the floor", .required = true},
+            &Inflow::level},
+      Field{Info{.key = "flow", .unit = "m^3/s", .range = above(0), .help = "volume per time"}, &Inflow::flow},
+      Field{Info{.key = "speed", .unit = "m/s", .range = above(0), .help = "mean speed: flow over width and level"}, &Inflow::speed}};
+};
+
+template <>
+struct Table<Outflow> {
+  static constexpr std::string_view about = "A side of the domain that is a weir: fluid above its level leaves";
+  static constexpr std::array one_of = kNoWords;
+  static constexpr std::tuple fields{
+      Field{Info{.key = "side", .help = "side of the domain, across x or z", .words = kAxisWords}, &Outflow::side},
+      Field{Info{.key = "level", .unit = "m", .range = above(0), .help = "height of the weir above the floor", .required = true},
+            &Outflow::level}};
 };
 
 }  // namespace rill::model

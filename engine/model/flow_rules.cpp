@@ -24,6 +24,26 @@ CheckResult endsAfterStart(const Timed& flow) {
 
 }  // namespace
 
+CheckResult checkSides(const Domain& domain) {
+  const auto check = [&](const auto& flow, std::string_view key) -> CheckResult {
+    const double height = domain.max.y - domain.min.y;
+    const std::string side = memberPath(key, "side"), level = memberPath(key, "level");
+    if (flow.side == Axis::PlusY || flow.side == Axis::MinusY)
+      return Fault{"found a side across y, expected one of \"-x\", \"+x\", \"-z\", \"+z\"", {side}};
+    if ((domain.open >> sideBit(flow.side) & 1U) != 0) return Fault{"found an open side, expected a closed one", {side, "open"}};
+    if (flow.level < height) return {};
+    return Fault{"found " + shortestNumber(flow.level) + ", expected a level below the domain's height, " + shortestNumber(height) + " (m)",
+                 {level}};
+  };
+  if (domain.inflow)
+    if (CheckResult fault = check(*domain.inflow, "inflow")) return fault;
+  if (domain.outflow)
+    if (CheckResult fault = check(*domain.outflow, "outflow")) return fault;
+  if (domain.inflow && domain.outflow && domain.inflow->side == domain.outflow->side)
+    return Fault{"found the side of the inflow, expected another one", {"outflow.side", "inflow.side"}};
+  return {};
+}
+
 CheckResult checkRules(const DiscMouth& mouth) { return hasDirection(mouth.normal, "normal"); }
 
 CheckResult checkRules(const RectMouth& mouth) {
@@ -52,6 +72,10 @@ CheckResult collectFlowNames(const Scene& scene, std::vector<std::string_view>& 
     }
     return {};
   };
+  if (scene.domain && scene.domain->inflow) {
+    seen.emplace("inflow", "domain");
+    names.push_back("inflow");
+  }
   if (CheckResult fault = collect(scene.emitters, "emitters")) return fault;
   return collect(scene.drains, "drains");
 }

@@ -149,7 +149,8 @@ CheckResult checkRules(const BoxShape& box) { return minBelowMax(box.min, box.ma
 CheckResult checkRules(const Domain& domain) {
   if (domain.open_removes && domain.open == 0)
     return Fault{"found true, but no side is open; expected sides in \"open\", or false", {"open_removes", "open"}};
-  return minBelowMax(domain.min, domain.max);
+  if (CheckResult fault = minBelowMax(domain.min, domain.max)) return fault;
+  return checkSides(domain);
 }
 
 CheckResult checkRules(const FluidSettings& fluid) {

@@ -35,6 +35,7 @@ CheckResult checkOneOf(std::span<const std::string_view> keys, std::span<const s
 // Rules between the keys of an object, or the entries of a list, whose values are valid.
 CheckResult checkRules(const BoxShape& box);
 CheckResult checkRules(const Domain& domain);
+CheckResult checkSides(const Domain& domain);  ///< of its inflow and outflow
 CheckResult checkRules(const FluidSettings& fluid);
 CheckResult checkRules(const MeshShape& shape);
 CheckResult checkRules(const Fill& fill);

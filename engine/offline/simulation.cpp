@@ -7,7 +7,8 @@
 #include <optional>
 
 #include "core/words.hpp"
-#include "fluid/flows.hpp"
+#include "fill/mouth.hpp"
+#include "fluid/settings.hpp"
 #include "offline/advances.hpp"
 #include "offline/context.hpp"
 #include "offline/painter.hpp"
@@ -266,10 +267,11 @@ class Simulation::Impl {
   /// Of the emitter or drain of this name: their volumes, emitters first.
   FlowValue flowThrough(const std::string& name) const {
     const auto nameOf = [](const auto& flow) -> const std::string& { return flow.name; };
-    const auto emitter = std::ranges::find(scene_.emitters, name, nameOf);
+    const std::vector<Emitter> emitters = emittersOf(scene_);
+    const auto emitter = std::ranges::find(emitters, name, nameOf);
     const auto drain = std::ranges::find(scene_.drains, name, nameOf);
-    const size_t k = emitter != scene_.emitters.end() ? static_cast<size_t>(emitter - scene_.emitters.begin())
-                                                      : scene_.emitters.size() + static_cast<size_t>(drain - scene_.drains.begin());
+    const size_t k = emitter != emitters.end() ? static_cast<size_t>(emitter - emitters.begin())
+                                               : emitters.size() + static_cast<size_t>(drain - scene_.drains.begin());
     const double volume = flowVolumes()[k], seconds = advancedSeconds();
     return {seconds > 0 && k < volumesBefore_.size() ? (volume - volumesBefore_[k]) / seconds : 0.0, volume};
   }

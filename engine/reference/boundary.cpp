@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "reference/solver.hpp"
 #include "shared/fluid_records.h"
@@ -136,7 +137,9 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, 
     x += by;
   }
   for (int a = 0; a < 3; ++a) {
-    const double lo = settings.lo[a] + clearance, hi = settings.hi[a] - clearance;
+    const bool noLow = walls_.isOutflow(a, false, x), noHigh = walls_.isOutflow(a, true, x);
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    const double lo = noLow ? -kFar : settings.lo[a] + clearance, hi = noHigh ? kFar : settings.hi[a] - clearance;
     x[a] = lo > hi ? (lo + hi) / 2 : std::clamp(x[a], lo, hi);
   }
   return x;

@@ -42,6 +42,10 @@ std::vector<Image> imagesNear(const glm::dvec3& x, const Walls& walls, double re
         const Image image{{a.sign, b.sign, c.sign}, {a.offset, b.offset, c.offset}};
         if (image.sign == glm::dvec3(1) && image.offset == glm::dvec3(0)) continue;
         const glm::dvec3 at = image.of(x);
+        bool absent = false;
+        for (int axis = 0; axis < 3; ++axis)
+          absent |= (at[axis] < lo[axis] && walls.isOutflow(axis, false, x)) || (at[axis] > hi[axis] && walls.isOutflow(axis, true, x));
+        if (absent) continue;
         glm::dvec3 gap;
         for (int axis = 0; axis < 3; ++axis) gap[axis] = outside(at[axis], lo[axis] + walls.margin, hi[axis] - walls.margin);
         if (glm::length(gap) < reach) images.push_back(image);

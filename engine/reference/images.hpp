@@ -16,6 +16,13 @@ struct Image {
 struct Walls {
   glm::dvec3 lo, hi;
   double margin = 0;
+  // An outflow: the wall of this axis is one up to a level (m, along y) only.
+  int outflowAxis = -1;
+  bool outflowHigh = false;
+  double outflowLevel = 0;
+  bool isOutflow(int axis, bool high, const glm::dvec3& x) const {
+    return axis == outflowAxis && high == outflowHigh && x.y > outflowLevel;
+  }
 };
 
 /// The images that can have a particle inside the walls within `reach` (m) of the image of `x`. Walls that face each other

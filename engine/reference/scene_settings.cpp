@@ -17,6 +17,12 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
     if (!(scene.domain->open & (1u << (2 * a)))) s.lo[a] = scene.domain->min[a] - origin[a];
     if (!(scene.domain->open & (2u << (2 * a)))) s.hi[a] = scene.domain->max[a] - origin[a];
   }
+  if (scene.domain && scene.domain->outflow) {
+    const unsigned side = sideBit(scene.domain->outflow->side);
+    s.outflowAxis = static_cast<int>(side / 2);
+    s.outflowHigh = side % 2 == 1;
+    s.outflowLevel = scene.domain->min.y + scene.domain->outflow->level - origin.y;
+  }
   s.solids = scene.solids;
   s.iterations = static_cast<int>(scene.solver.iterations);
   s.relaxation = setup.params.relaxationInMotion;

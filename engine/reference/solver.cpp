@@ -46,6 +46,9 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
+  walls_.outflowAxis = settings.outflowAxis;
+  walls_.outflowHigh = settings.outflowHigh;
+  walls_.outflowLevel = settings.outflowLevel;
   for (int a = 0; a < 3; ++a) walls_.margin = std::min(walls_.margin, (settings.hi[a] - settings.lo[a]) / 2);
   if (!settings.solids.empty()) {
     halfSpace_ = makeHalfSpaceTable(kernel_);

@@ -8,6 +8,7 @@
 #ifndef RILL_IMAGES_GLSL
 #define RILL_IMAGES_GLSL
 
+const uint kLowImages = 0xAAu, kHighImages = 0x154u;  // as bits
 const uint kImagesAlongAxis = THIN ? 9u : 3u;
 
 // Image `which` along an axis of a place x; sign -1 if it is reflected.
@@ -45,6 +46,7 @@ Images imagesNear(vec3 x, float reach) {
       float gap = max(low[a] + params.margin - image, image - high[a] + params.margin);
       near[a] |= uint(gap < reach) << n;
     }
+  if (aboveOutflow(x)) near[params.outflowSide / 2u] &= params.outflowSide % 2u == 0u ? ~kLowImages : ~kHighImages;
   return Images(near, near);
 }
 

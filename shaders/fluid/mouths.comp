@@ -26,8 +26,8 @@ vec3 wayOut(uint e, float phase, vec3 x) {
   vec3 across = vec3(emitters[e].acrossX, emitters[e].acrossY, emitters[e].acrossZ);
   vec3 up = vec3(emitters[e].upX, emitters[e].upY, emitters[e].upZ);
   vec3 from = x - vec3(emitters[e].centerX, emitters[e].centerY, emitters[e].centerZ);
-  float thickness = emitters[e].speed / emitters[e].rate, along = dot(from, normal);
-  float forward = phase * thickness - along, backward = along + thickness;
+  float thickness = min(emitters[e].speed / emitters[e].rate, params.spacing);  // of a mouth of one particle it may be much more
+  float along = dot(from, normal), forward = phase * thickness - along, backward = along + thickness;
   vec2 side = vec2(dot(from, across), dot(from, up)), most = vec2(emitters[e].halfAcross, emitters[e].halfUp) + params.margin;
   vec2 beside = most - abs(side);
   float radius = length(side), aside = emitters[e].round_ != 0u ? most.x - radius : min(beside.x, beside.y);

@@ -15,10 +15,17 @@ layout(binding = 1) uniform ControlBlock { FluidControl control; };
 vec3 wallsLow() { return vec3(params.lowX, params.lowY, params.lowZ); }
 vec3 wallsHigh() { return vec3(params.highX, params.highY, params.highZ); }
 
+// Whether x is above the level of the outflow, whose side is no wall there.
+bool aboveOutflow(vec3 x) { return OUTFLOW && x.y > params.outflowLevel; }
+
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {
   if (!isActive(x) || !isWithin(x, 3.0e38)) return x;
   vec3 low = wallsLow() + params.margin, high = wallsHigh() - params.margin;
+  if (aboveOutflow(x)) {
+    if (params.outflowSide % 2u == 0u) low[params.outflowSide / 2u] = -kNoWall;
+    else high[params.outflowSide / 2u] = kNoWall;
+  }
   return vec3(x.x < low.x ? low.x : (x.x > high.x ? high.x : x.x),
               x.y < low.y ? low.y : (x.y > high.y ? high.y : x.y),
               x.z < low.z ? low.z : (x.z > high.z ? high.z : x.z));

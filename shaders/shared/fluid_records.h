@@ -66,6 +66,8 @@ struct FluidParams {
   uint contactPoints;     // of all bodies
   uint pressureProbes;
   uint emitterCount, drainCount;
+  uint outflowSide;       // likewise a bit; a wall up to
+  float outflowLevel;     // m; kNoWall: no outflow
   uint openRemoves;       // sides, as bits of SideMask, through which particles leave for good
   float pressureDensity;  // kg/m^3, that makes a pressure of a multiplier over the square of the step: see docs/notes/pressure.md
   float bodySpeed;        // m/s, the fastest point of a body at the start

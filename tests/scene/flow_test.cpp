@@ -1,4 +1,5 @@
 // Emitters, drains, open sides that remove, capacity and probes of flow in scene files.
+#include "fill/mouth.hpp"
 #include "support.hpp"
 
 namespace rill::test {
@@ -125,7 +126,7 @@ TEST(FlowScene, RejectsDrainsNamingTheKey) {
       {drain(R"("box": {"max": [1, 0, 1]})"), "drains[0].box.max[1]: max is 0 and min is 0 along y; expected min below max on every axis"},
       {drain(R"("sphere": {"radius": 0})"), "drains[0].sphere.radius: 0 is out of range; expected a number above 0 (m)"},
       {drain(R"("box": {}, "from": 3, "until": 1)"), "drains[0].until: found 1 s, expected a time later than from, 3 s"},
-      {drain(R"("box": {}, "flow": 1)"), "drains[0].flow: unknown key; did you mean \"emitters[].flow\"?"},
+      {drain(R"("box": {}, "flow": 1)"), "drains[0].flow: unknown key; did you mean \"domain.inflow.flow\"?"},
       {list("drains", R"({"box": {}})", 257), "drains: found 257 entries, expected at most 256"},
   });
   EXPECT_EQ(parseError(list("drains", R"({"box": {}})", 256)), "accepted");
@@ -168,6 +169,40 @@ TEST(FlowScene, OpenSidesRemoveOnlyWhereASideIsOpen) {
   const std::string open = scene02(R"("domain": {"open": ["+y"], "open_removes": true})");
   EXPECT_EQ(parseError(open), "accepted");
   EXPECT_EQ(parseError(open, {{"domain.open", "[]"}}), "--set domain.open" + why);
+}
+
+TEST(FlowScene, ReadsInflowAndOutflow) {
+  const Scene s =
+      scene(scene02(R"("domain": {"inflow": {"side": "+z", "level": 0.25, "flow": 2}, "outflow": {"side": "-x", "level": 0.5}})"));
+  EXPECT_EQ(s.domain->inflow->side, Axis::PlusZ);
+  EXPECT_EQ(s.domain->inflow->level, 0.25);
+  EXPECT_EQ(s.domain->inflow->flow, 2);
+  EXPECT_EQ(s.domain->outflow->side, Axis::MinusX);
+  EXPECT_EQ(s.domain->outflow->level, 0.5);
+  const std::vector<Emitter> all = emittersOf(s);
+  ASSERT_EQ(all.size(), 1U);
+  const auto& mouth = std::get<RectMouth>(all[0].mouth);
+  EXPECT_EQ(mouth.center, (Double3{0.5, 0.125, 0.95})) << "the first centers are half a spacing off the wall";
+  EXPECT_EQ(mouth.size, (std::pair{1.0, 0.25}));
+  EXPECT_EQ(mouth.normal, (Double3{0, 0, -1}));
+  EXPECT_EQ(parseError(scene02(R"("domain": {"inflow": {"level": 0.5, "speed": 1}}, "probes": [{"name": "q", "flow": "inflow"}])")),
+            "accepted");
+}
+
+TEST(FlowScene, RejectsInflowsAndOutflowsNamingTheKey) {
+  const auto inflow = [](const std::string& keys) { return scene02(R"("domain": {"inflow": {)" + keys + "}}"); };
+  expectRefusals({
+      {inflow(R"("level": 0.5)"), "domain.inflow: expected exactly one of \"flow\", \"speed\"; found none"},
+      {inflow(R"("level": 0.5, "speed": 1, "side": "+y")"),
+       "domain.inflow.side: found a side across y, expected one of \"-x\", \"+x\", \"-z\", \"+z\""},
+      {inflow(R"("level": 1, "speed": 1)"), "domain.inflow.level: found 1, expected a level below the domain's height, 1 (m)"},
+      {scene02(R"("domain": {"open": ["-x"], "inflow": {"level": 0.5, "speed": 1}})"),
+       "domain.inflow.side: found an open side, expected a closed one"},
+      {scene02(R"("domain": {"inflow": {"level": 0.5, "speed": 1}, "outflow": {"side": "-x", "level": 0.5}})"),
+       "domain.outflow.side: found the side of the inflow, expected another one"},
+      {scene02(R"("domain": {"inflow": {"level": 0.5, "speed": 1}}, "drains": [{"name": "inflow", "box": {}}])"),
+       "drains[0].name: \"inflow\" is also the name of domain; expected unique names among emitters and drains"},
+  });
 }
 
 TEST(FlowScene, RejectsCapacitiesOutOfRange) {

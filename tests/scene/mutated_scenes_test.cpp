@@ -103,17 +103,30 @@ void addStickyFluidAndPressures(Scene& scene) {
   scene.probes.push_back({.name = "covered", .pressure = Double3{0.95, 0.2, 0.5}});
 }
 
+/// Emitters, drains, an inflow and an outflow.
+void addFlows(Scene& scene) {
+  scene.emitters = {{.name = "tap", .mouth = DiscMouth{{0.3, 0.8, 0.3}, 0.1, {0, -1, 0}}, .flow = 0.01, .from = 0.1, .until = 2},
+                    {.mouth = RectMouth{{0.6, 0.8, 0.6}, {0.2, 0.1}, {1, 0, 0}, {0, 1, 0}}, .speed = 2}};
+  scene.drains = {{.name = "plug", .shape = BoxShape{{0, 0, 0}, {0.1, 0.1, 0.1}}},
+                  {.shape = SphereShape{{0.5, 0.1, 0.5}, 0.1}, .until = 3}};
+  scene.probes.push_back({.name = "rate", .flow = "tap"});
+  if (scene.domain->open != 0) return;
+  scene.domain->inflow = Inflow{.level = 0.3, .speed = 0.5};
+  scene.domain->outflow = Outflow{.level = 0.2};
+}
+
 TEST(MutatedScenes, AreRejectedOrRun) {
   constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kValues[] = {nan, inf, -inf, 1e300, -1e300, 3e38, -3e38, 1e20, 1e-20, 1e-44, -1e-44, 1, -1, 4, 100, 0};
   constexpr double kFactors[] = {0, 0, 0, 1, -1, 2, 0.5, 1.1, 0.01, 100, 1e6, 1e-6};
   std::mt19937 random(20240229);
   const auto below = [&](size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random); };
-  int rejected = 0, ran = 0, sticky = 0;
+  int rejected = 0, ran = 0, sticky = 0, flows = 0;
   for (int round = 0; round < 4000; ++round) {
     Scene scene = tank();
     if (round % 2 == 1) addBodies(scene);
     if (round % 4 >= 2) addStickyFluidAndPressures(scene);
+    if (round % 3 == 0) addFlows(scene);
     const Numbers numbers(scene);
     for (size_t changes = 1 + below(3); changes > 0; --changes) {
       const double factor = kFactors[below(std::size(kFactors))];
@@ -154,6 +167,11 @@ TEST(MutatedScenes, AreRejectedOrRun) {
       for (const float number : {probe.x, probe.y, probe.z}) EXPECT_TRUE(std::isfinite(number)) << round;
     EXPECT_TRUE(std::isfinite(setup->params.pressureDensity)) << round;
     sticky += setup->noSlipSolids && !setup->pressureProbes.empty();
+    for (const EmitterRecord& e : setup->emitters) {
+      EXPECT_TRUE(std::isfinite(e.speed) && std::isfinite(e.rate) && e.rate >= 0 && e.points > 0) << round;
+      EXPECT_LE(e.firstPoint + e.points, setup->mouthPoints.size()) << round;
+      ++flows;
+    }
     EXPECT_GT(setup->longestStep, 0) << round;
     EXPECT_TRUE(std::isfinite(setup->longestStep)) << round;
     for (const SolidRecord& solid : setup->solids) EXPECT_TRUE(std::isfinite(solid.pose.centerX)) << round;
@@ -161,6 +179,7 @@ TEST(MutatedScenes, AreRejectedOrRun) {
   EXPECT_GT(rejected, 1000);
   EXPECT_GT(ran, 300);
   EXPECT_GT(sticky, 100);
+  EXPECT_GT(flows, 200);
 }
 
 }  // namespace

@@ -254,8 +254,8 @@ class RILL_API Fluid {
   /// Valid until the fluid is moved or destroyed; the next call that reads results may change the values.
   std::span<const PressureReading> pressures() const;
 
-  /// Of the scene's emitters, and of its drains, in their order, after the last finished frame. Valid until the fluid is moved or
-  /// destroyed; the next call that reads results may change the values.
+  /// Of the scene's emitters (and of its inflow, the last one), and of its drains, in their order, after the last finished frame. Valid
+  /// until the fluid is moved or destroyed; the next call that reads results may change the values.
   std::span<const FlowReading> emitted() const;
   std::span<const FlowReading> drained() const;
 

@@ -26,13 +26,33 @@ namespace rill {
 /// Sides of the domain without a wall, as bits in the order -x +x -y +y -z +z.
 using SideMask = uint8_t;
 
+/// A direction along an axis, or against it.
+enum class Axis : uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
+
+/// A side of the domain through which fluid flows in, over the side's width from the floor to a level. Exactly one of `flow` and `speed` is
+/// given. It is an emitter, the last one, of the name "inflow".
+struct Inflow {
+  Axis side = Axis::MinusX;  ///< across x or z
+  double level = 1;          ///< m above the floor, > 0, within the domain
+  double flow = 0;           ///< m^3/s, > 0; 0 if `speed` is given
+  double speed = 0;          ///< m/s, > 0: flow over width and level; 0 if `flow` is given
+};
+
+/// A side of the domain that is a wall up to a level, as a weir. Particles that flow over it are removed and counted as left.
+struct Outflow {
+  Axis side = Axis::PlusX;  ///< across x or z
+  double level = 1;         ///< m above the floor, > 0, within the domain
+};
+
 /// An axis-aligned box of walls. Particle positions are stored relative to `min`.
 struct Domain {
-  Double3 min = {0, 0, 0};    ///< m
-  Double3 max = {1, 1, 1};    ///< m
-  SideMask open = 0;          ///< sides without a wall; particles that leave stay in the simulation and are counted as outside
-  bool open_removes = false;  ///< particles that leave through an open side are removed, and counted as left
-  bool slip = true;           ///< false: viscous fluid sticks to the walls
+  Double3 min = {0, 0, 0};              ///< m
+  Double3 max = {1, 1, 1};              ///< m
+  SideMask open = 0;                    ///< sides without a wall; particles that leave stay in the simulation and are counted as outside
+  bool open_removes = false;            ///< particles that leave through an open side are removed, and counted as left
+  bool slip = true;                     ///< false: viscous fluid sticks to the walls
+  std::optional<Inflow> inflow = {};    ///< a closed side
+  std::optional<Outflow> outflow = {};  ///< another one
 };
 
 /// The smoothing kernel.
@@ -195,9 +215,6 @@ struct GravityChange {
   Double3 value = {0, 0, 0};  ///< m/s^2
 };
 
-/// A direction along an axis, or against it.
-enum class Axis : uint8_t { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ };
-
 /// A measurement. Exactly one of `level`, `front`, `load`, `pose`, `pressure` and `flow` is given.
 struct Probe {
   std::string name = {};                                ///< unique, not empty
@@ -249,6 +266,12 @@ inline size_t bodyCount(const Scene& scene) {
   for (const Solid& solid : scene.solids) count += solid.body.has_value();
   return count;
 }
+
+/// Whether the scene has emitters, or an inflow, which is one.
+inline bool hasEmitters(const Scene& scene) { return !scene.emitters.empty() || (scene.domain && scene.domain->inflow); }
+
+/// The bit of a side among those of a SideMask.
+constexpr unsigned sideBit(Axis side) { return static_cast<unsigned>(side) ^ 1U; }
 
 /// Validates a scene that was made in code by the rules that apply to scene files. Opens no file. makeParticles() and Fluid::create()
 /// call it. BadInput naming the key as in a file ("solids[2].friction"), what was found and what was expected.
