@@ -7,8 +7,6 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kTankSpacing = 0.05;
-
 Solid crate(const Double3& center, double edge, double density, const Double3& velocity = {0, 0, 0}) {
   const double half = edge / 2;
   return {.shape = BoxShape{{center.x - half, center.y - half, center.z - half}, {center.x + half, center.y + half, center.z + half}},

@@ -136,10 +136,12 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     for (double& v : scene.fill[0].velocity) v = uniform(-2, 2) * std::sqrt(10 * d);
     scene.fill[0].jitter = chance(0.3) ? uniform(0, 0.5) : 0;
 
+    if (seed % 3 == 1) addRandomFlows(scene, seed);
     StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
     c.duration_s = 12 * std::sqrt(d / 10);
     c.frame_s = c.duration_s / 12;
-    c.externalWork = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty() || s.body; });
+    c.externalWork =
+        std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty() || s.body; }) || !scene.emitters.empty();
     // Initial overlaps (jitter, a solid inside the fluid) separate, which adds potential energy.
     c.maxEnergy = scene.fill[0].jitter > 0 || solids > 0 ? 1.2 : 1.02;
     c.maxSpeed = speedBound(scene, 4 * std::sqrt(10 * d) + (c.externalWork ? 40 * d : 0));

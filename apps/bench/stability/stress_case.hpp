@@ -35,6 +35,8 @@ struct StressCase {
   std::function<std::string(const StressOutcome&)> check;  ///< empty string: passed; else the value found and expected
 };
 
+inline constexpr double kTankSpacing = 0.05;  ///< m
+
 /// A box of fluid in a tank; both start at the origin, sizes in m.
 Scene tankScene(double spacing, const Double3& fluid, const Double3& tank);
 /// Particles at `positions` with a common velocity.
@@ -42,9 +44,12 @@ ParticleSet particlesAt(std::vector<Float3> positions, const Float3& velocity = 
 /// A bound on physical speeds of the scene: a multiple of the speed from falling through the domain plus the initial speed.
 double speedBound(const Scene& scene, double start = 0);
 
-std::vector<StressCase> startCases();                                 ///< degenerate initial states
-std::vector<StressCase> forceCases();                                 ///< extreme forces, time steps and scales
-std::vector<StressCase> bodyCases();                                  ///< rigid bodies
+std::vector<StressCase> startCases();  ///< degenerate initial states
+std::vector<StressCase> forceCases();  ///< extreme forces, time steps and scales
+std::vector<StressCase> bodyCases();   ///< rigid bodies
+std::vector<StressCase> flowCases();   ///< emitters and drains
+/// Up to three emitters and two drains in the domain of a scene.
+void addRandomFlows(Scene& scene, uint64_t seed);
 std::vector<StressCase> sizeCases();                                  ///< numbers of particles at internal limits
 std::vector<StressCase> parameterCases();                             ///< each key of fluid and solver at its minimum and maximum
 std::vector<StressCase> randomCases(uint64_t first, uint64_t count);  ///< reproducible: the name is the seed

@@ -42,6 +42,8 @@ constexpr const char* kNamedBox = R"([{"name": "box", "box": {"min": [2.6, 0, 0.
 constexpr const char* kBody = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "body": {"density": 500}}])";
 constexpr const char* kLoad = R"([{"name": "load", "load": "box"}])";
 constexpr const char* kPressure = R"([{"name": "pressure", "pressure": [0.5, 0.2, 0.5]}])";
+constexpr const char* kTap = R"([{"disc": {"center": [4, 2.5, 0.5], "radius": 0.1, "normal": [0, -1, 0]}, "speed": 1}])";
+constexpr const char* kDrain = R"([{"box": {"min": [4.8, 3, 0.3], "max": [4.9, 3.1, 0.7]}}])";
 constexpr const char* kNoSlipBox = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "slip": false}])";
 constexpr const char* kDistantBox = R"([{"box": {"min": [4.6, 3, 0.3], "max": [4.9, 3.6, 0.7]}}])";
 constexpr const char* kSphere = R"([{"sphere": {"center": [2.8, 0.3, 0.5], "radius": 0.25}}])";
@@ -74,6 +76,9 @@ std::vector<Feature> features() {
       {"load on a solid", {{"rill", "\"0.2\""}, {"solids", kNamedBox}, {"probes", kLoad}}},
       {"floating box", {{"rill", "\"0.2\""}, {"solids", kBody}}, {{"rill", "\"0.2\""}, {"solids", "[]"}}},
       {"pressure at a point", {{"rill", "\"0.2\""}, {"probes", kPressure}}, {{"rill", "\"0.2\""}, {"probes", "[]"}}},
+      {"tap", {{"rill", "\"0.2\""}, {"emitters", kTap}}, {{"rill", "\"0.2\""}, {"emitters", "[]"}}},
+      {"drain", {{"rill", "\"0.2\""}, {"drains", kDrain}}, {{"rill", "\"0.2\""}, {"drains", "[]"}}},
+      {"open side that removes", {{"rill", "\"0.2\""}, {"domain.open", R"(["+y"])"}, {"domain.open_removes", "true"}}},
       {"3 iterations", {{"solver.iterations", "3"}, {"solver.warm_start", "0.02"}}, {{"solver.iterations", "1"}}},
       {"no artificial viscosity", {{"solver.artificial_viscosity", "0"}}},  // its dispatches are empty at the speeds of the base scene
       {"no warm start", {{"solver.warm_start", "0"}}},

@@ -16,8 +16,11 @@ std::string firstFailure(const StressCase& c, const StressOutcome& o, uint64_t p
   for (const apps::Instant& instant : run.instants) {
     const offline::Stats& s = instant.stats;
     const std::string at = " at " + number(instant.time_s) + " s";
-    if (s.particles != particles)
-      return "particles" + at + ": found " + std::to_string(s.particles) + ", expected " + std::to_string(particles);
+    const FluidLedger& l = s.ledger;
+    const bool flows = hasEmitters(c.scene) || !c.scene.drains.empty();
+    const uint64_t expected = flows ? particles + l.emitted - l.drained - l.left - l.inactive : particles;
+    if (s.particles != expected)
+      return "particles" + at + ": found " + std::to_string(s.particles) + ", expected " + std::to_string(expected);
     if (s.nonFinite != c.inactive)
       return "inactive particles" + at + ": found " + std::to_string(s.nonFinite) + ", expected " + std::to_string(c.inactive);
     if (!std::isfinite(s.kinetic_J) || !std::isfinite(s.potential_J) || !std::isfinite(s.densityErrorMax))
@@ -52,6 +55,7 @@ class Stability {
     add(startCases());
     add(forceCases());
     add(bodyCases());
+    add(flowCases());
     add(sizeCases());
     add(parameterCases());
     // --only runs any random case, with --quick too.

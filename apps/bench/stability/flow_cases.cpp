@@ -1,0 +1,99 @@
+// Emitters and drains where they are hard: too much, too fast, in each other's way, under fluid and in solids.
+#include <cmath>
+#include <random>
+
+#include "bench/stability/stress_case.hpp"
+
+namespace rill::bench {
+namespace {
+
+Emitter tap(const Double3& center, double radius, const Double3& normal, double speed) {
+  return {.mouth = DiscMouth{center, radius, normal}, .speed = speed};
+}
+
+StressCase flowCase(std::string name, const Double3& fluid, std::vector<Emitter> emitters, std::vector<Drain> drains = {}) {
+  StressCase c{.name = std::move(name), .asserts = "the ledger closes", .scene = tankScene(kTankSpacing, fluid, {1, 1, 1})};
+  double speed = 0;
+  for (const Emitter& emitter : emitters) speed = std::max(speed, emitter.speed);
+  c.scene.fluid.capacity = 20000;
+  c.scene.emitters = std::move(emitters);
+  c.scene.drains = std::move(drains);
+  c.maxSpeed = speedBound(c.scene, 2 * speed);
+  c.externalWork = true;
+  return c;
+}
+
+std::string expectEmitted(const StressOutcome& o, bool any) {
+  const uint64_t emitted = o.run.instants.back().stats.ledger.emitted;
+  if ((emitted > 0) == any) return {};
+  return "emitted: found " + std::to_string(emitted) + ", expected " + (any ? "more than 0" : "0");
+}
+
+}  // namespace
+
+void addRandomFlows(Scene& scene, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double low, double high) { return low + (high - low) * double(random() >> 11) * 0x1p-53; };
+  const Domain& domain = *scene.domain;
+  const double d = scene.fluid.spacing, speed = std::sqrt(10 * d);
+  const auto place = [&] {
+    return Double3{uniform(domain.min.x, domain.max.x), uniform(domain.min.y, domain.max.y), uniform(domain.min.z, domain.max.z)};
+  };
+  const auto direction = [&] { return Double3{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; };
+  for (uint64_t k = random() % 4; k > 0; --k) {
+    Emitter emitter{.speed = speed * std::pow(10.0, uniform(-2, 1)), .from = uniform(0, 1) * 0.01};
+    if (random() % 2 == 0)
+      emitter.mouth = DiscMouth{place(), d * uniform(0.1, 4), direction()};
+    else
+      emitter.mouth = RectMouth{place(), {d * uniform(0.1, 6), d * uniform(0.1, 6)}, direction(), direction()};
+    scene.emitters.push_back(emitter);
+  }
+  for (uint64_t k = random() % 3; k > 0; --k) {
+    const Double3 at = place();
+    const double size = d * uniform(0.3, 4);
+    scene.drains.push_back({.shape = SphereShape{at, size}});
+    if (random() % 2 == 0) scene.drains.back().shape = BoxShape{at, {at.x + size, at.y + size, at.z + size}};
+  }
+  scene.fluid.capacity = random() % 2 == 0 ? 20000 : 0;
+}
+
+std::vector<StressCase> flowCases() {
+  const Double3 none = {0, 0, 0}, half = {1, 0.5, 1};
+  std::vector<StressCase> cases;
+  cases.push_back(flowCase("tap-100-m/s", none, {tap({0.5, 0.9, 0.5}, 0.1, {0, -1, 0}, 100)}));
+  cases.push_back(
+      flowCase("taps-against-each-other", none, {tap({0.3, 0.5, 0.5}, 0.1, {1, 0, 0}, 3), tap({0.7, 0.5, 0.5}, 0.1, {-1, 0, 0}, 3)}));
+  cases.push_back(
+      flowCase("taps-at-one-place", half, {tap({0.5, 0.25, 0.5}, 0.15, {1, 0, 0}, 1), tap({0.5, 0.25, 0.5}, 0.15, {0, 1, 0}, 1)}));
+  cases.push_back(flowCase("tap-into-a-corner", half, {tap({0.1, 0.1, 0.1}, 0.1, {-1, -1, -1}, 2)}));
+  cases.push_back(flowCase("tap-along-a-wall", half, {tap({0.5, 0.2, 0}, 0.2, {1, 0, 0}, 1)}));
+  cases.push_back(flowCase("mouth-larger-than-the-domain", none, {tap({0.5, 0.5, 0.5}, 3, {0, -1, 0}, 1)}));
+  cases.push_back(flowCase("mouth-of-a-hundredth-spacing", half, {tap({0.5, 0.8, 0.5}, 0.0005, {0, -1, 0}, 2)}));
+  cases.push_back(
+      flowCase("tap-in-a-drain", none, {tap({0.5, 0.9, 0.5}, 0.1, {0, -1, 0}, 1)}, {{.shape = SphereShape{{0.5, 0.8, 0.5}, 0.3}}}));
+  cases.push_back(flowCase("drain-of-everything", half, {}, {{.shape = BoxShape{{-1, -1, -1}, {2, 2, 2}}, .from = 0.2}}));
+  cases.back().check = [](const StressOutcome& o) {
+    const uint64_t left = o.run.instants.back().stats.particles;
+    return left == 0 ? std::string() : "particles: found " + std::to_string(left) + ", expected 0";
+  };
+  {
+    StressCase c = flowCase("tap-inside-a-solid", half, {tap({0.5, 0.5, 0.5}, 0.1, {0, -1, 0}, 1)});
+    c.scene.solids = {{.shape = SphereShape{{0.5, 0.5, 0.5}, 0.3}}};
+    c.check = [](const StressOutcome& o) { return expectEmitted(o, false); };
+    cases.push_back(c);
+  }
+  {
+    StressCase c = flowCase("tank-that-is-overfilled", {1, 1, 1}, {tap({0.5, 0.5, 0.5}, 0.1, {0, -1, 0}, 1)});
+    c.check = [](const StressOutcome& o) { return expectEmitted(o, true); };
+    c.maxSpeed *= 4;
+    cases.push_back(c);
+  }
+  {
+    StressCase c = flowCase("tap-at-full-capacity", half, {tap({0.5, 0.9, 0.5}, 0.2, {0, -1, 0}, 2)});
+    c.scene.fluid.capacity = 4010;
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+}  // namespace rill::bench
