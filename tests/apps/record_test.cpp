@@ -139,6 +139,7 @@ TEST(Record, WritesDocumentedJsonKeys) {
                           "artificial_viscosity_Pa_s",
                           "state_hash",
                           "probes",
+                          "fluids",
                           "wall_s",
                           "pass_ms",
                           "skipped"})

@@ -7,6 +7,7 @@
 
 #include "rill/offline.hpp"
 #include "shared/body_records.h"
+#include "shared/flow_records.h"
 #include "shared/pressure_probe.h"
 #include "shared/solid_records.h"
 #include "support/child_process.hpp"
@@ -238,6 +239,57 @@ TEST_F(CheckpointTest, RejectsDamagedBodies) {
   const std::string whole = contentOf(folder / "run.rill");
   folder.write("cut.rill", whole.substr(0, whole.size() / 2));
   expectRefused({"--resume", "cut.rill"}, {"--resume: \"cut.rill\" is truncated"});
+}
+
+/// An empty tank with a tap, a tap under water later, a plug, and a weir.
+constexpr const char* kFlows = R"({
+  "rill": "0.2", "duration": 0.5,
+  "domain": {"min": [0, 0, 0], "max": [0.6, 0.8, 0.6], "outflow": {"level": 0.1}},
+  "fluid": {"spacing": 0.05, "capacity": 900},
+  "emitters": [{"name": "tap", "disc": {"center": [0.3, 0.7, 0.3], "radius": 0.12, "normal": [0, -1, 0]}, "flow": 0.2},
+               {"rect": {"center": [0.1, 0.1, 0.3], "size": [0.3, 0.15], "normal": [1, 0, 0]}, "speed": 0.5, "from": 0.2}],
+  "drains": [{"name": "plug", "box": {"min": [0, 0, 0], "max": [0.2, 0.1, 0.6]}, "from": 0.1}],
+  "probes": [{"name": "in", "flow": "tap"}, {"name": "out", "flow": "plug"}]
+})";
+
+TEST_F(CheckpointTest, ResumedRunOfFlowsEqualsUninterruptedRun) {
+  folder.write("dam.json", kFlows);
+  figures({"--frames", "30", "--stats", "whole.json"});
+  figures({"--frames", "14", "--checkpoint", "run.rill"});
+  figures({"--frames", "16", "--resume", "run.rill", "--stats", "rest.json"});
+  const auto whole = frames("whole.json"), rest = frames("rest.json");
+  EXPECT_EQ(rest, std::vector<Json>(whole.begin() + 14, whole.end())) << "all figures, flows and the ledger, bitwise";
+  for (const Json& frame : whole) {
+    const Json& ledger = frame["fluids"][0];
+    const auto count = [&](const char* key) { return ledger[key].get<int64_t>(); };
+    EXPECT_EQ(count("filled") + count("emitted"), count("particles") + count("drained") + count("left") + count("inactive"));
+    EXPECT_EQ(ledger["particles"], frame["particles"]);
+  }
+  const Json& end = whole.back()["fluids"][0];
+  for (const char* key : {"emitted", "drained", "left"}) EXPECT_GT(end[key], 10) << key;
+  EXPECT_NEAR(whole.back()["probes"]["in"]["volume"].get<double>(), 0.2 * 29 / 60, 0.006);
+}
+
+TEST_F(CheckpointTest, RejectsDamagedFlows) {
+  folder.write("dam.json", kFlows);
+  figures({"--frames", "8", "--checkpoint", "run.rill"});
+  const auto good = offline::loadCheckpoint(folder / "run.rill");
+  ASSERT_TRUE(good);
+  const auto refused = [&](const auto& change, const std::string& message) {
+    offline::Checkpoint damaged = *good;
+    change(damaged.fluid);
+    const auto bytes = offline::encodeCheckpoint(damaged);
+    folder.write("damaged.rill", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    expectRefused({"--resume", "damaged.rill"}, {"--resume: \"damaged.rill\": the state does not fit the scene: " + message});
+  };
+  const auto nan = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
+  const size_t emitter = sizeof(FlowRecord) / 4;
+  refused([&](FluidSnapshot& s) { s.flows.pop_back(); }, "flows has ");
+  refused([&](FluidSnapshot& s) { s.flows.clear(); }, "flows has 0 entries; expected ");
+  refused([&](FluidSnapshot& s) { s.flows[offsetof(FlowRecord, nextId) / 4] = 0; }, "the id of its next particle is 0");
+  refused([&](FluidSnapshot& s) { s.flows[offsetof(FlowRecord, blockedHigh) / 4] = nan; }, "flows has a blocked time");
+  refused([&](FluidSnapshot& s) { s.flows[emitter + offsetof(EmitterRecord, rate) / 4] = nan; }, "emitters[0] has a state");
+  refused([&](FluidSnapshot& s) { s.flows[emitter + offsetof(EmitterRecord, due) / 4] = 1000; }, "emitters[0] has a state");
 }
 
 TEST_F(CheckpointTest, RejectsChangedParticleFile) {
