@@ -35,7 +35,8 @@ void main() {
   control.pulls = push.pulls;
   gravityAt();
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
-  control.speed = max(uintBitsToFloat(sums.speedMax), control.emitterSpeed);
+  control.speed = uintBitsToFloat(sums.speedMax);
+  if (control.nextPhase == kPhaseAdvancing) control.speed = max(control.speed, control.emitterSpeed);
   control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
   if (control.nextRelaxation == 0.0) setGains();  // the first advance: from then on each substep sets those of the next
   control.desiredStep = plannedStep(control.desiredStep, cflStep(acceleration, control.head));

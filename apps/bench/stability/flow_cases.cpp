@@ -1,6 +1,7 @@
 // Emitters and drains where they are hard: too much, too fast, in each other's way, under fluid and in solids.
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "bench/stability/stress_case.hpp"
 
@@ -27,6 +28,34 @@ std::string expectEmitted(const StressOutcome& o, bool any) {
   const uint64_t emitted = o.run.instants.back().stats.ledger.emitted;
   if ((emitted > 0) == any) return {};
   return "emitted: found " + std::to_string(emitted) + ", expected " + (any ? "more than 0" : "0");
+}
+
+/// A jet that falls back into its basin, which a drain keeps at its level, for ten minutes.
+StressCase endlessFountain() {
+  StressCase c = flowCase("fountain-for-10-minutes", {1, 0.2, 1}, {tap({0.5, 0.3, 0.5}, 0.08, {0, 1, 0}, 2)},
+                          {{.shape = BoxShape{{0, 0.25, 0}, {1, 0.4, 0.1}}}});
+  c.asserts = "as much leaves as comes; as many particles, and as much time a frame, at the end as at the start";
+  c.duration_s = 600;
+  c.frame_s = 0.25;
+  c.longRun = true;
+  c.check = [](const StressOutcome& o) -> std::string {
+    const auto& all = o.run.instants;
+    const auto mean = [&](size_t first, size_t last, auto figure) {
+      double sum = 0;
+      for (size_t k = first; k < last; ++k) sum += figure(all[k].stats);
+      return sum / double(last - first);
+    };
+    const size_t n = all.size(), tenth = n / 10;
+    const auto particles = [](const offline::Stats& s) { return double(s.particles); };
+    const auto substeps = [](const offline::Stats& s) { return double(s.substeps); };
+    for (const auto& [what, early, late] : {std::tuple{"particles", mean(tenth, 2 * tenth, particles), mean(n - tenth, n, particles)},
+                                            {"substeps", mean(tenth, 2 * tenth, substeps), mean(n - tenth, n, substeps)}})
+      if (!(std::abs(late / early - 1) < 0.05))
+        return std::string(what) + ": found " + number(late) + " in the last tenth, expected " + number(early);
+    const FluidLedger& l = all.back().stats.ledger;
+    return l.emitted > 100 * l.filled ? std::string() : "emitted: found " + std::to_string(l.emitted) + ", expected 100 times the fill";
+  };
+  return c;
 }
 
 }  // namespace
@@ -93,6 +122,7 @@ std::vector<StressCase> flowCases() {
     c.scene.fluid.capacity = 4010;
     cases.push_back(c);
   }
+  cases.push_back(endlessFountain());
   return cases;
 }
 
