@@ -187,6 +187,35 @@ TEST_F(FlowsTest, DrainsAndOpenSidesRemoveWithinAFrame) {
   }
 }
 
+TEST_F(FlowsTest, LedgerClosesInRandomScenes) {
+  uint64_t emitted = 0, drained = 0, left = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const auto place = [&] { return Double3{uniform(0, 1), uniform(0, 1), uniform(0, 0.5)}; };
+    const auto direction = [&] { return Double3{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; };
+    Trial t = tank();
+    t.gather = kGathers[seed % 3];
+    t.scene.domain->open = static_cast<SideMask>(random() % 64);
+    t.scene.domain->open_removes = t.scene.domain->open != 0;
+    t.capacity = seed % 2 == 0 ? 1200 : 4000;
+    for (uint64_t k = random() % 4; k > 0; --k) t.scene.emitters.push_back(disc(place(), uniform(0.02, 0.2), direction(), uniform(0.1, 4)));
+    for (uint64_t k = random() % 4; k > 0; --k) t.scene.drains.push_back({.shape = SphereShape{place(), uniform(0.05, 0.3)}});
+    auto run = start(t);
+    for (int frame = 0; frame < 8; ++frame) {
+      run->advance(1.0 / 60);
+      expectBalance(*run);
+      EXPECT_EQ(particles(run->saved()).size(), run->stats().particles);
+    }
+    const FluidLedger l = run->stats().ledger;
+    emitted += l.emitted, drained += l.drained, left += l.left;
+  }
+  EXPECT_GT(emitted, 100u);
+  EXPECT_GT(drained, 100u);
+  EXPECT_GT(left, 100u);
+}
+
 TEST_F(FlowsTest, OutflowIsAWallUpToItsLevel) {
   Trial t = trial();
   setWalls(t, {0.75, 1, 0.5});
