@@ -8,7 +8,7 @@ namespace rill::bench {
 namespace {
 
 constexpr double kBase = 0.05715;  // a, m
-constexpr double kFrame = 1.0 / 240;
+constexpr double kColumnFrame = 1.0 / 240;
 constexpr int kColumnResolution[kLevels] = {10, 16, 24};  // spacings per a; even, so that a / 2 is a multiple of the spacing
 
 /// A published curve, and the units of its axes.
@@ -28,7 +28,7 @@ Expected<Outcome> collapse(const Bench& bench, int high, unsigned level) {
       {"height", high == 1 ? "martin_moyce_n2_1_height" : "martin_moyce_n2_2_height", std::sqrt(kBase / gravity), high * kBase}};
   Curve raw[2];  // s, m
   auto run = runSampled(
-      bench, *scene, scene->duration, kFrame, [](double) { return true; },
+      bench, *scene, scene->duration, kColumnFrame, [](double) { return true; },
       [&](const Cloud& cloud, double time) {
         raw[0].emplace_back(time, frontAlongX(cloud));
         raw[1].emplace_back(time, heightAtWall(cloud, 0, 0));

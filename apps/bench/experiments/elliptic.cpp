@@ -9,7 +9,7 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kRadius = 1;                           // m
+constexpr double kDropRadius = 1;                       // m
 constexpr double kRate = 1;                             // A0, 1/s
 constexpr int kDropResolution[kLevels] = {10, 16, 24};  // spacings per radius
 constexpr int kDropThickness = 4;
@@ -17,12 +17,12 @@ constexpr int kDropThickness = 4;
 Cloud disc(double spacing) {
   Cloud cloud;
   cloud.spacing = spacing;
-  const int half = static_cast<int>(std::ceil(kRadius / spacing));
+  const int half = static_cast<int>(std::ceil(kDropRadius / spacing));
   for (int i = -half; i < half; ++i)
     for (int j = -half; j < half; ++j)
       for (int l = 0; l < kDropThickness; ++l) {
         const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing;
-        if (x * x + y * y > kRadius * kRadius) continue;
+        if (x * x + y * y > kDropRadius * kDropRadius) continue;
         cloud.position.push_back({x, y, (l + 0.5) * spacing});
         cloud.velocity.push_back({-kRate * x, kRate * y, 0});
       }
@@ -42,7 +42,7 @@ std::pair<double, double> semiAxes(const Cloud& cloud) {
 }
 
 Expected<Outcome> drop(const Bench& bench, unsigned level) {
-  const double spacing = kRadius / kDropResolution[level];
+  const double spacing = kDropRadius / kDropResolution[level];
   const auto points = publishedCurve("elliptic_drop");
   if (!points) return points.error();
   const auto start = StartFile::write(disc(spacing));
@@ -84,8 +84,8 @@ Expected<Outcome> drop(const Bench& bench, unsigned level) {
 std::vector<Experiment> ellipticExperiments() {
   std::vector<Experiment> all;
   for (unsigned level = 0; level < kLevels; ++level)
-    all.push_back(
-        {"elliptic-drop", level, level < 2, kRadius / kDropResolution[level], [level](const Bench& bench) { return drop(bench, level); }});
+    all.push_back({"elliptic-drop", level, level < 2, kDropRadius / kDropResolution[level],
+                   [level](const Bench& bench) { return drop(bench, level); }});
   return all;
 }
 

@@ -9,14 +9,14 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kEdge = 0.4;                                             // m, of the box, and the ball's diameter
-constexpr double kTank = 0.7;                                             // m, width and depth of the water
+constexpr double kLiftEdge = 0.4;                                         // m, of the box, and the ball's diameter
+constexpr double kLiftTank = 0.7;                                         // m, width and depth of the water
 constexpr double kDuration = 3, kStill = 1.5;                             // s: the start's waves are over
 constexpr double kLiftSpacing[kLevels] = {0.4 / 12, 0.4 / 16, 0.4 / 24};  // m
 
 Expected<Outcome> liftOf(const Bench& bench, Solid solid, double volume, double spacing) {
-  Scene scene = boxScene(spacing, {0, 0, 0}, {kTank, 1.4 * kTank, kTank});
-  scene.fill.push_back(boxFill({0, 0, 0}, {kTank, kTank, kTank}));
+  Scene scene = boxScene(spacing, {0, 0, 0}, {kLiftTank, 1.4 * kLiftTank, kLiftTank});
+  scene.fill.push_back(boxFill({0, 0, 0}, {kLiftTank, kLiftTank, kLiftTank}));
   solid.name = "held";
   scene.solids.push_back(std::move(solid));
   scene.probes.push_back({.name = "load", .load = "held"});
@@ -45,8 +45,8 @@ Expected<Outcome> liftOf(const Bench& bench, Solid solid, double volume, double 
 }  // namespace
 
 std::vector<Experiment> liftExperiments() {
-  constexpr double kMiddle = kTank / 2, kLow = kMiddle - kEdge / 2, kHigh = kMiddle + kEdge / 2, kRadius = kEdge / 2;
-  const double boxVolume = kEdge * kEdge * kEdge, ballVolume = boxVolume * std::numbers::pi / 6;
+  constexpr double kMiddle = kLiftTank / 2, kLow = kMiddle - kLiftEdge / 2, kHigh = kMiddle + kLiftEdge / 2, kRadius = kLiftEdge / 2;
+  const double boxVolume = kLiftEdge * kLiftEdge * kLiftEdge, ballVolume = boxVolume * std::numbers::pi / 6;
   std::vector<Experiment> all;
   for (unsigned level = 0; level < kLevels; ++level) {
     const double spacing = kLiftSpacing[level];

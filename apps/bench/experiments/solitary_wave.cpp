@@ -15,7 +15,7 @@ constexpr int kSolitaryThickness = 4;
 constexpr double kReach = 7 * kSolitary.depth_m;    // of the wave to each side, at the start and at the end
 constexpr double kTravel = 20 * kSolitary.depth_m;  // m
 constexpr double kSolitaryTank = 2 * kReach + kTravel;
-constexpr double kWindow = 2 * kSolitary.depth_m;  // full width of the Hann window, which is as wide as a bin of a depth
+constexpr double kSolitaryWindow = 2 * kSolitary.depth_m;  // full width of the Hann window, which is as wide as a bin of a depth
 
 Expected<Outcome> travel(const Bench& bench, int layers) {
   const double spacing = kSolitary.depth_m / layers, frame = 1.0 / 60, duration = kTravel / kSolitary.speed();
@@ -24,7 +24,7 @@ Expected<Outcome> travel(const Bench& bench, int layers) {
   const double width = kSolitaryThickness * spacing;
   Scene scene = boxScene(spacing, {0, 0, 0}, {kSolitaryTank, 3 * kSolitary.depth_m, width});
   scene.fill.push_back(start->fill());
-  const SurfaceWindow window{kWindow / 2, kSolitaryTank - kWindow / 2, spacing / 2, kWindow, width};
+  const SurfaceWindow window{kSolitaryWindow / 2, kSolitaryTank - kSolitaryWindow / 2, spacing / 2, kSolitaryWindow, width};
   CrestFollower crest(kReach, kSolitary.depth_m / 2);
   auto run = runSampled(
       bench, scene, duration, frame, [](double) { return true; },

@@ -12,9 +12,9 @@ namespace {
 constexpr double kSide = 0.8, kStillDepth = 1;  // m, still tank: leaves an interior farther than twice the support from all walls
 constexpr double kStillSpacing[kLevels] = {1.0 / 15, 0.05, 1.0 / 30};
 constexpr double kDamSpacing[kLevels] = {0.05, 1.0 / 30, 0.025};
-constexpr double kFrame = 1.0 / 60;
+constexpr double kTankFrame = 1.0 / 60;
 
-bool near(double time_s, double instant_s) { return std::abs(time_s - instant_s) < kFrame / 2; }
+bool near(double time_s, double instant_s) { return std::abs(time_s - instant_s) < kTankFrame / 2; }
 
 void addBulk(Outcome& outcome, const BulkDensity& bulk, double clumped) {
   outcome.figures.push_back(plainFigure("bulk density", bulk.error));
@@ -47,7 +47,7 @@ Expected<Outcome> stillTank(const Bench& bench, unsigned level) {
   Outcome outcome;
   MomentumBalance balance;
   auto run = runSampled(
-      bench, scene, 6, kFrame, [](double time) { return near(time, 4) || near(time, 6); },
+      bench, scene, 6, kTankFrame, [](double time) { return near(time, 4) || near(time, 6); },
       [&](const Cloud& cloud, double time) {
         if (near(time, 4)) balance = {cloud, time};
         if (!near(time, 6)) return;
@@ -79,7 +79,7 @@ Expected<Outcome> stillTank(const Bench& bench, unsigned level) {
   double sum = 0, squares = 0, count = 0;
   for (size_t k = 1; k < instants.size(); ++k)
     if (instants[k].time_s > 4) {
-      const double force = 1 + (instants[k].stats.momentum[1] - instants[k - 1].stats.momentum[1]) / (kFrame * weight);
+      const double force = 1 + (instants[k].stats.momentum[1] - instants[k - 1].stats.momentum[1]) / (kTankFrame * weight);
       sum += force;
       squares += force * force;
       ++count;
@@ -100,7 +100,7 @@ Expected<Outcome> damBreak(const Bench& bench, unsigned level) {
   double clumped = 0;
   Curve density;
   auto run = runSampled(
-      bench, scene, 2, kFrame, [](double time) { return near(std::fmod(time + kFrame / 4, 0.25), 0); },
+      bench, scene, 2, kTankFrame, [](double time) { return near(std::fmod(time + kTankFrame / 4, 0.25), 0); },
       [&](const Cloud& cloud, double time) {
         clumped = std::max(clumped, clumpedFraction(cloud));
         const BulkDensity bulk = bulkDensity(cloud, wallsOf(scene), scene.fluid.smoothing_ratio * spacing);
