@@ -72,13 +72,9 @@ offline::ProbeValue noValue(const Probe& probe) {
   return kNone;
 }
 
-uint64_t presentParticles(const FluidLedger& l) { return l.filled + l.emitted - l.drained - l.left - l.inactive; }
-
-Json jsonOf(const FluidLedger& l) {
-  return {{"name", "fluid"},       {"particles", presentParticles(l)},
-          {"filled", l.filled},    {"emitted", l.emitted},
-          {"drained", l.drained},  {"left", l.left},
-          {"inactive", l.inactive}};
+Json jsonOf(const FluidLedger& l, uint64_t active) {
+  return {{"name", "fluid"},      {"particles", active}, {"filled", l.filled},    {"emitted", l.emitted},
+          {"drained", l.drained}, {"left", l.left},      {"inactive", l.inactive}};
 }
 
 Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
@@ -112,7 +108,8 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
   frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
-  frame["fluids"] = Json::array({jsonOf(stats.ledger)});
+  const bool flows = hasEmitters(scene) || !scene.drains.empty() || hasRemovingSides(scene);
+  frame["fluids"] = Json::array({jsonOf(stats.ledger, flows ? stats.particles : stats.particles - stats.ledger.inactive)});
   if (hasEmitters(scene)) frame["emitter_blocked_s"] = stats.emitterBlocked_s;
   if (stats.bodies)
     frame["bodies"] = {{"kinetic_J", stats.bodies->kinetic_J},

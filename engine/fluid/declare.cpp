@@ -19,7 +19,7 @@ uint64_t FluidImpl::fixedGroups(Extent extent) const {
     case Extent::PressureProbes:
       return setup.pressureProbes.size();
     case Extent::Births:
-      return std::max<uint64_t>(divideUp(std::min<uint64_t>(kMaxDueLayers * setup.mouthPoints.size(), capacity), kFluidGroup), 1);
+      return std::max<uint64_t>(divideUp(std::min<uint64_t>(kMaxBornLayers * setup.mouthPoints.size(), capacity), kFluidGroup), 1);
     default:
       return divideUp(capacity, kFluidGroup);
   }

@@ -58,8 +58,8 @@ Expected<void> checkEmitter(const Scene& scene, const Emitter& emitter, const st
   const auto bad = [&](const std::string& what) {
     return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + ": " + what};
   };
-  if (!(points <= kMaxPoints))
-    return bad("its mouth takes " + roundedNumber(points) + " particles of fluid.spacing a layer; expected at most " +
+  if (!(points + static_cast<double>(setup.mouthPoints.size()) <= kMaxPoints))
+    return bad("its mouth takes " + roundedNumber(points) + " particles of fluid.spacing a layer; expected at most, of all emitters, " +
                grouped(static_cast<uint64_t>(kMaxPoints)));
   const double speed = flowOf(emitter) / area;
   if (!(speed <= kMaxSpeed))
@@ -105,6 +105,12 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing) {
   return lattice;
 }
 
+double fastestEmitter(const Scene& scene) {
+  double fastest = 0;
+  for (const Emitter& emitter : emittersOf(scene)) fastest = std::max(fastest, flowOf(emitter) / areaOf(emitter.mouth));
+  return fastest;
+}
+
 void place(EmitterRecord& r, const Double3& center) { r.centerX = f(center.x), r.centerY = f(center.y), r.centerZ = f(center.z); }
 
 void setAxes(EmitterRecord& r, const Double3& normal, const Double3& across, const Double3& up) {
@@ -135,7 +141,7 @@ Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& s
     r.until = secondsOrNever(emitter.until);
     r.firstPoint = static_cast<uint32_t>(setup.mouthPoints.size());
     r.points = static_cast<uint32_t>(lattice.points.size());
-    r.round_ = std::holds_alternative<DiscMouth>(emitter.mouth) ? 1 : 0;
+    r.isDisc = std::holds_alternative<DiscMouth>(emitter.mouth) ? 1 : 0;
     r.phase = kHalfLayer;
     setup.mouthPoints.insert(setup.mouthPoints.end(), lattice.points.begin(), lattice.points.end());
     setup.emitters.push_back(r);

@@ -24,6 +24,9 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing);
 /// Warns of speeds that the steps cannot follow.
 Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup);
 
+/// m/s, of the fluid in the mouths.
+double fastestEmitter(const Scene& scene);
+
 /// What a host may change of an emitter while it runs: the words of its record before `from`. `center`: m, relative to the particles'
 /// origin. The axes are unit vectors.
 void place(EmitterRecord& record, const Double3& center);

@@ -135,7 +135,7 @@ class FluidImpl {
   /// What is wrong with FluidStep::pulls; empty if nothing.
   std::string faultOfPulls(const FluidStep& step) const;
   void declarePulls(Graph& graph, std::span<const BodyPull> pulls);
-  // taps.cpp
+  // emitter_targets.cpp
   /// What is wrong with FluidStep::emitters; empty if nothing.
   std::string faultOfEmitters(const FluidStep& step) const;
   void declareEmitters(Graph& graph, const FluidStep& step);

@@ -26,7 +26,7 @@ void FluidImpl::importAll(Graph& graph) {
 }
 
 void FluidImpl::declareBegin(Graph& graph, double advance, bool queued, size_t pulls) {
-  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{static_cast<float>(advance), 0});
+  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{static_cast<float>(advance), 0, queued});
   declare(graph, FluidPass::Begin, Start::Always,
           BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued, static_cast<uint32_t>(pulls)});
   if (!(advance > 0)) return;
@@ -38,7 +38,7 @@ void FluidImpl::declareRebuild(Graph& graph) {
   using enum FluidArray;
   ++recording_.sorts;
   beginSection();
-  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{0, 1});
+  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{0, 1, 0});
   declare(graph, FluidPass::Emit, Start::Rebuild);
   const Gate gate{ref(Commands), sortCommand_};
   const SortTargets targets{.order = {}, .start = ref(CellStart), .keys = {}};

@@ -179,8 +179,8 @@ void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
   // Without a domain nothing else bounds what the fluid becomes when more is added.
   Double3 extent;
   for (int a = 0; a < 3; ++a) extent[a] = scene.domain ? start.extent[a] : std::max(start.extent[a], cubeEdge(scene, start));
-  const SpeedLimits limits =
-      speedLimits(scene, extent, start.fastest, std::max({double{p.solidSpeed}, fastestDriven(scene), fastestBody(scene)}));
+  const SpeedLimits limits = speedLimits(scene, extent, std::max(start.fastest, fastestEmitter(scene)),
+                                         std::max({double{p.solidSpeed}, fastestDriven(scene), fastestBody(scene)}));
   p.warmLimit = f(limits.warm);
   p.minSpeedGain = f(limits.minGain);
   p.maxSpeedGain = f(limits.maxGain);
@@ -297,10 +297,7 @@ bool measuresLoads(const Scene& scene) {
   return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); }) || bodyCount(scene) > 0;
 }
 
-bool removes(const Scene& scene) {
-  const bool sides = scene.domain && (scene.domain->open_removes || scene.domain->inflow || scene.domain->outflow);
-  return !scene.emitters.empty() || !scene.drains.empty() || sides;
-}
+bool removes(const Scene& scene) { return hasEmitters(scene) || !scene.drains.empty() || hasRemovingSides(scene); }
 
 size_t pressureProbeCount(const Scene& scene) {
   return static_cast<size_t>(std::ranges::count_if(scene.probes, [](const Probe& probe) { return probe.pressure.has_value(); }));

@@ -135,13 +135,18 @@ Expected<void> checkPressures(const FluidSnapshot& s) {
 
 /// Whether an emitter's state can be gone on with: shaders place particles by it.
 bool valid(const EmitterRecord& e) {
-  for (const float number : {e.centerX, e.centerY, e.centerZ, e.speed, e.rate, e.normalX, e.normalY, e.normalZ, e.acrossX, e.acrossY,
-                             e.acrossZ, e.upX, e.upY, e.upZ, e.halfAcross, e.halfUp, e.doneHigh, e.doneLow, e.late})
+  for (const float number :
+       {e.centerX, e.centerY, e.centerZ, e.speed, e.rate,       e.normalX, e.normalY,  e.normalZ, e.acrossX, e.acrossY,
+        e.acrossZ, e.upX,     e.upY,     e.upZ,   e.halfAcross, e.halfUp,  e.doneHigh, e.doneLow, e.age,     e.interval})
     if (!(std::abs(number) < 1e15F)) return false;
-  return e.speed >= 0 && e.rate >= 0 && e.late >= 0 && e.due <= kMaxDueLayers;
+  return e.speed >= 0 && e.rate >= 0 && e.age >= 0 && e.age < 1e6F && e.interval >= 0 && e.interval < 1e6F && e.due <= 1000000;
 }
 
 Expected<void> checkFlows(const FluidSnapshot& s, const SnapshotShape& shape) {
+  const auto control = record<FluidControl>(s.control);
+  const bool emits = shape.emitterCount > 0;
+  if (!(control.emitterSpeed >= 0 && control.emitterSpeed <= (emits ? 1e9F : 0.0F)) || !(control.emissionWait < 2 * kNever))
+    return wrong("its control block is not that of a scene with " + std::to_string(shape.emitterCount) + " emitters");
   if (s.flows.empty()) return {};
   const std::span<const uint32_t> words(s.flows);
   constexpr size_t kFlowWords = sizeof(FlowRecord) / 4, kEmitterWords = sizeof(EmitterRecord) / 4;

@@ -134,7 +134,7 @@ void FluidImpl::resumeFlows(const FluidSnapshot& s) {
     EmitterRecord saved;
     next(saved);
     saved.from = emitter.from, saved.until = emitter.until;
-    saved.firstPoint = emitter.firstPoint, saved.points = emitter.points, saved.round_ = emitter.round_;
+    saved.firstPoint = emitter.firstPoint, saved.points = emitter.points, saved.isDisc = emitter.isDisc;
     emitter = saved;
   }
   for (DrainRecord& drain : setup.drains) {

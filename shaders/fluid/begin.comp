@@ -36,6 +36,7 @@ void main() {
   gravityAt();
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
   control.speed = uintBitsToFloat(sums.speedMax);
+  // fluid beside an open mouth is in motion, but the initial pressure is that of fluid at rest
   if (control.nextPhase == kPhaseAdvancing) control.speed = max(control.speed, control.emitterSpeed);
   control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
   if (control.nextRelaxation == 0.0) setGains();  // the first advance: from then on each substep sets those of the next
@@ -47,7 +48,7 @@ void main() {
     if (push.drivenSpeed > 0.0 && control.nextPhase == kPhaseInitialPressure) setNextPhase(kPhaseAdvancing, 0u);
     if (control.nextPhase == kPhaseInitialPressure) control.nextStep = params.initialPressureStep;
     if (control.warmStep <= 0.0) control.warmStep = control.nextStep;
-    float fastest = control.speed + max(control.solidSpeed, control.bodySpeed);
+    float fastest = max(control.speed, control.emitterSpeed) + max(control.solidSpeed, control.bodySpeed);
     float nextTravel = control.travel + (fastest + acceleration * control.nextStep) * control.nextStep;
     if (control.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && control.listState == kListValid)
       control.listState = kListDue;

@@ -42,8 +42,8 @@ void main() {
   uint born = flatInvocation();
   if (born >= flow.candidates) return;
   uint e = emitterOf(born), k = born - emitters[e].firstCandidate, points = emitters[e].points;
-  uint later = emitters[e].layers - 1u - k / points;  // layers that left after its own
-  float age = emitters[e].late + (float(emitters[e].phase) / 4294967296.0 + float(later)) / emitters[e].rate;
+  uint later = emitters[e].waiting + emitters[e].layers - 1u - k / points;  // layers that left after its own
+  float age = emitters[e].age + float(later) * emitters[e].interval;
   vec2 place = mouthPoints[emitters[e].firstPoint + k % points];
   vec3 v = emitters[e].speed * vec3(emitters[e].normalX, emitters[e].normalY, emitters[e].normalZ);
   vec3 mouth = vec3(emitters[e].centerX, emitters[e].centerY, emitters[e].centerZ) +
@@ -51,6 +51,7 @@ void main() {
                place.y * vec3(emitters[e].upX, emitters[e].upY, emitters[e].upZ);
   vec3 x = mouth + age * (v + 0.5 * age * gravity());
   v += age * gravity();
+  if (insideSolid(x)) x = mouth;  // it would have met the solid
 
   bool walled = any(lessThan(mouth, wallsLow())) || any(greaterThan(mouth, wallsHigh()));
   bool blocked = walled || insideSolid(mouth);
@@ -58,7 +59,7 @@ void main() {
   if (blocked) {
     x = vec3(kInactivePosition);
     v = vec3(0.0);
-    emitters[e].blocked = 1u;
+    atomicOr(emitters[e].blocked, kCovered);
   } else {
     x = insideWalls(x);
     atomicAdd(emitters[e].emitted, 1u);

@@ -12,30 +12,31 @@ layout(std430, binding = 4) writeonly buffer PredictionBlock { vec4 prediction[]
 READ_FLOAT4(5, warmAcceleration)
 layout(std430, binding = 6) readonly buffer EmitterBlock { EmitterRecord emitters[]; };
 
-// Whether the emitter works now, and how far its layer has come, in layers.
-bool works(uint e, out float phase) {
+// Whether the emitter is open now, and how far its layer has come, in layers.
+bool isOpen(uint e, out float phase) {
   float now = control.timeHigh + control.timeLow;
   float since = (control.timeHigh - emitters[e].doneHigh) + (control.timeLow - emitters[e].doneLow);
-  phase = float(emitters[e].due) + float(emitters[e].phase) / 4294967296.0 + emitters[e].rate * since;
-  return emitters[e].rate > 0.0 && emitters[e].blocked == 0u && now > emitters[e].from && now <= emitters[e].until;
+  phase = min(float(emitters[e].due) + float(emitters[e].phase) / 4294967296.0 + emitters[e].rate * since, 1.5);
+  return emitters[e].rate > 0.0 && (emitters[e].blocked & kNoRoom) == 0u && now > emitters[e].from && now <= emitters[e].until;
 }
 
-// The shortest way out of the piston; none if x is not in it.
-vec3 wayOut(uint e, float phase, vec3 x) {
+// The shortest displacement out of the piston; 0 if x is not in it.
+vec3 displacementOut(uint e, float phase, vec3 x) {
   vec3 normal = vec3(emitters[e].normalX, emitters[e].normalY, emitters[e].normalZ);
   vec3 across = vec3(emitters[e].acrossX, emitters[e].acrossY, emitters[e].acrossZ);
   vec3 up = vec3(emitters[e].upX, emitters[e].upY, emitters[e].upZ);
   vec3 from = x - vec3(emitters[e].centerX, emitters[e].centerY, emitters[e].centerZ);
   float thickness = min(emitters[e].speed / emitters[e].rate, params.spacing);  // of a mouth of one particle it may be much more
   float along = dot(from, normal), forward = phase * thickness - along, backward = along + thickness;
-  vec2 side = vec2(dot(from, across), dot(from, up)), most = vec2(emitters[e].halfAcross, emitters[e].halfUp) + params.margin;
-  vec2 beside = most - abs(side);
-  float radius = length(side), aside = emitters[e].round_ != 0u ? most.x - radius : min(beside.x, beside.y);
+  vec2 side = vec2(dot(from, across), dot(from, up)), limit = vec2(emitters[e].halfAcross, emitters[e].halfUp);
+  limit += emitters[e].isDisc != 0u ? params.spacing : 0.5 * params.spacing;  // centers of a layer reach a disc's rim
+  vec2 beside = limit - abs(side);
+  float radius = length(side), aside = emitters[e].isDisc != 0u ? limit.x - radius : min(beside.x, beside.y);
   float shortest = min(min(forward, backward), aside);
   if (shortest <= 0.0) return vec3(0.0);
   if (shortest == forward) return forward * normal;
   if (shortest == backward) return -backward * normal;
-  if (emitters[e].round_ != 0u) return aside / max(radius, 1.0e-20) * (side.x * across + side.y * up);
+  if (emitters[e].isDisc != 0u) return aside / max(radius, 1.0e-20) * (side.x * across + side.y * up);
   return beside.x < beside.y ? (side.x < 0.0 ? -beside.x : beside.x) * across : (side.y < 0.0 ? -beside.y : beside.y) * up;
 }
 
@@ -47,13 +48,13 @@ void main() {
   bool pushed = false;
   for (uint e = 0u; e < params.emitterCount; ++e) {
     float phase;
-    if (!works(e, phase)) continue;
-    vec3 way = wayOut(e, phase, x);
-    float far = length(way);
-    if (far <= 1.0e-5 * params.spacing) continue;
-    vec3 direction = way / far;
+    if (!isOpen(e, phase)) continue;
+    vec3 out_ = displacementOut(e, phase, x);
+    float depth = length(out_);
+    if (depth <= 1.0e-5 * params.spacing) continue;
+    vec3 direction = out_ / depth;
     float face = max(dot(direction, vec3(emitters[e].normalX, emitters[e].normalY, emitters[e].normalZ)) * emitters[e].speed, 0.0);
-    x += direction * min(far, 2.0 * emitters[e].speed * control.step);  // where it opens in fluid, at a bounded speed
+    x += direction * min(depth, 2.0 * emitters[e].speed * control.step);  // where it opens in fluid, at a bounded speed
     v += direction * max(face - dot(v, direction), 0.0);
     pushed = true;
   }

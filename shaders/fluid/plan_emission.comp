@@ -30,28 +30,34 @@ void addBlockedTime(float seconds) {
 
 // Layers that have left the mouth since it was last accounted for. Returns the seconds in which it was open.
 float account(uint e) {
-  float all = since(emitters[e].doneHigh, emitters[e].doneLow);
+  float all = since(emitters[e].doneHigh, emitters[e].doneLow), rate = emitters[e].rate;
   emitters[e].doneHigh = control.timeHigh;
   emitters[e].doneLow = control.timeLow;
-  float late = max(since(emitters[e].until, 0.0), 0.0);
-  float open = max(min(all, since(emitters[e].from, 0.0)) - late, 0.0);
-  emitters[e].late = late;
-  float layers = emitters[e].rate * open, whole = floor(layers);
-  uint share = min(uint((layers - whole) * 4294967296.0), 0xffffff00u), before = emitters[e].phase;
-  emitters[e].phase = before + share;
-  uint due = emitters[e].due + uint(min(whole, 1.0e6)) + uint(before + share < before);
-  if (emitters[e].rate <= 0.0) due = 0u;  // the host has closed it
-  if (due > kMaxDueLayers) emitters[e].blocked = 1u;
-  emitters[e].due = min(due, kMaxDueLayers);
+  emitters[e].age += all;
+  if (rate <= 0.0) {
+    emitters[e].blocked = 0u;
+    return 0.0;
+  }
+  float closed = max(since(emitters[e].until, 0.0), 0.0), open = max(min(all, since(emitters[e].from, 0.0)) - closed, 0.0);
+  float layers = min(rate * open, 1.0e6), whole = floor(layers);
+  uint share = min(uint((layers - whole) * 4294967296.0), 0xffffff00u), phase = emitters[e].phase + share;
+  uint due = uint(whole) + uint(phase < share);
+  emitters[e].phase = phase;
+  if (due == 0u) return open;
+  emitters[e].due = min(emitters[e].due + due, 1000000u);
+  emitters[e].age = closed + min(float(phase) / 4294967296.0 / rate, open);
+  emitters[e].interval = 1.0 / rate;
   return open;
 }
 
-// Seconds until a rebuild is due for the next layer.
+// Seconds until a rebuild is due for the next layer: when it is late by a part of itself, or has fallen by a part of a spacing.
 float wait(uint e) {
   if (emitters[e].due > 0u) return 0.0;
-  if (emitters[e].rate <= 0.0 || emitters[e].late > 0.0) return kNever;
-  float left = float(~emitters[e].phase) / 4294967296.0;
-  return max(-since(emitters[e].from, 0.0), 0.0) + (left + kLateLayers) / emitters[e].rate;
+  if (emitters[e].rate <= 0.0 || since(emitters[e].until, 0.0) > 0.0) return kNever;
+  float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
+  float left = float(~emitters[e].phase) / 4294967296.0 / emitters[e].rate;
+  float late = min(kLateLayers / emitters[e].rate, sqrt(2.0 * kLateLayers * params.spacing / max(acceleration, 1.0e-20)));
+  return max(-since(emitters[e].from, 0.0), 0.0) + left + late;
 }
 
 // Entries behind the last particle for the layers that are due, in the order of the emitters.
@@ -59,12 +65,14 @@ void makeRoom() {
   uint room = params.capacity - min(control.count, params.capacity), ids = kMaxIds - min(flow.nextId, kMaxIds);
   uint candidates = 0u;
   for (uint e = 0u; e < params.emitterCount; ++e) {
-    uint wanted = emitters[e].due * emitters[e].points, taken = min(wanted, min(room, ids) - candidates);
+    uint layers = min(emitters[e].due, kMaxBornLayers), wanted = layers * emitters[e].points;
+    uint taken = min(wanted, min(room, ids) - candidates);
     emitters[e].firstCandidate = candidates;
-    emitters[e].layers = emitters[e].due;
-    emitters[e].due = 0u;
+    emitters[e].layers = layers;
+    emitters[e].due -= layers;
+    emitters[e].waiting = emitters[e].due;
     candidates += taken;
-    if (wanted > 0u) emitters[e].blocked = uint(taken < wanted);
+    if (wanted > 0u) emitters[e].blocked = taken < wanted ? kNoRoom : 0u;
     if (taken < wanted && ids < room) flow.outOfIds = 1u;
     else if (taken < wanted) flow.full = 1u;
   }
@@ -75,20 +83,20 @@ void makeRoom() {
 }
 
 void main() {
-  bool rebuilds = (startsOn(kNoSubstep) >> kStartRebuild & 1u) != 0u;
-  if (push.births != 0u && !rebuilds) return;
+  bool births = push.births != 0u;
+  if (births ? (startsOn(kNoSubstep) >> kStartRebuild & 1u) == 0u : push.queued != 0u && control.timeLeft > 0.0) return;
   float blocked = 0.0, next = kNever, fastest = 0.0;
   for (uint e = 0u; e < params.emitterCount; ++e) {
     bool had = emitters[e].blocked != 0u;
     float open = account(e);
     if (had) blocked = max(blocked, open);
-    bool opens = emitters[e].rate > 0.0 && emitters[e].late <= 0.0 && since(emitters[e].from, 0.0) + push.advance > 0.0;
+    bool opens = emitters[e].rate > 0.0 && since(emitters[e].until, 0.0) <= 0.0 && since(emitters[e].from, 0.0) + push.advance > 0.0;
     if (opens) fastest = max(fastest, emitters[e].speed);
   }
   addBlockedTime(blocked);
-  if (push.births != 0u) makeRoom();
+  if (births) makeRoom();
   else control.emitterSpeed = fastest;
   for (uint e = 0u; e < params.emitterCount; ++e) next = min(next, wait(e));
   control.emissionWait = next;
-  if (push.births != 0u) switchCommands(startsOn(kNoSubstep), 0u, 1u);  // over the new count
+  if (births) switchCommands(startsOn(kNoSubstep), 0u, 1u);  // over the new count
 }

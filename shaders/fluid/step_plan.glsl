@@ -7,7 +7,7 @@
 // The step in which the fastest particle, going on accelerating, moves no farther than cfl allows:
 // speed t + acceleration t^2 = reach. And no longer than the longest stable one.
 float cflStep(float acceleration, float head) {
-  float speed = control.speed + max(params.solidSpeedInCfl * control.solidSpeed, control.bodySpeed);
+  float speed = max(control.speed, control.emitterSpeed) + max(params.solidSpeedInCfl * control.solidSpeed, control.bodySpeed);
   float reach = params.cfl * params.spacing;
   return min(longestStep(head), 2.0 * reach / (speed + sqrt(speed * speed + 4.0 * acceleration * reach) + 1.0e-20));
 }

@@ -4,11 +4,13 @@
 #include "shared/interop.h"
 RILL_RECORDS_BEGIN
 
-RILL_CONST uint kMaxFlows = 256u;      // emitters of a scene, and drains
-RILL_CONST uint kMaxDueLayers = 4u;    // of an emitter at a rebuild; more do not fit in front of the mouth
+RILL_CONST uint kMaxBornLayers = 4u;   // of an emitter at a rebuild; more wait for the next one
 RILL_CONST float kLateLayers = 0.25f;  // by how many layers a birth may be late before the list is rebuilt for it
 RILL_CONST float kNever = 1.0e30f;     // s
 RILL_CONST uint kHalfLayer = 0x80000000u;  // phase at the start: the first layer is due when half of it has left
+
+RILL_CONST uint kNoRoom = 1u;   // the capacity, or the ids, did not do for a whole layer
+RILL_CONST uint kCovered = 2u;  // a part of the mouth is in a solid or behind a wall
 
 struct EmitterRecord {
   // What a host may change, first.
@@ -21,15 +23,15 @@ struct EmitterRecord {
   float halfAcross, halfUp;         // m, half the mouth's size; of a round one its radius
   float from, until;                // s
   uint firstPoint, points;          // of its layer, among the mouths' points
-  uint round_;                      // 1: a disc
+  uint isDisc;                      // 1: a disc
   // State.
   uint phase;                       // of the layer that leaves, in units of 2^-32
-  uint due;                         // layers to be born at the next rebuild
+  uint due;                         // layers to be born at the next rebuilds
+  float age, interval;              // s since the last of them was due, and between them
   float doneHigh, doneLow;          // s, the time up to which it is accounted for, as the sum of two floats
-  float late;                       // s, since it closed
   uint emitted;                     // particles since the start
-  uint blocked;                     // 1: particles of the last layer had no place
-  uint layers;                      // to be born at this rebuild
+  uint blocked;                     // of the last layer: kNoRoom, kCovered
+  uint layers, waiting;             // born at this rebuild, and due but not
   uint firstCandidate;              // of their particles
 };
 
@@ -61,6 +63,7 @@ struct FlowRecord {
 struct EmissionPush {
   float advance;  // s, of the advance that begins; 0 at a rebuild
   uint births;    // 1: at a rebuild, layers that are due are born
+  uint queued;    // as in BeginPush
 };
 
 RILL_RECORDS_END

@@ -34,7 +34,7 @@ std::string expectEmitted(const StressOutcome& o, bool any) {
 StressCase endlessFountain() {
   StressCase c = flowCase("fountain-for-10-minutes", {1, 0.2, 1}, {tap({0.5, 0.3, 0.5}, 0.08, {0, 1, 0}, 2)},
                           {{.shape = BoxShape{{0, 0.25, 0}, {1, 0.4, 0.1}}}});
-  c.asserts = "as much leaves as comes; as many particles, and as much time a frame, at the end as at the start";
+  c.asserts = "as much leaves as comes; as many particles and substeps at the end as at the start";
   c.duration_s = 600;
   c.frame_s = 0.25;
   c.longRun = true;
@@ -84,6 +84,10 @@ void addRandomFlows(Scene& scene, uint64_t seed) {
     if (random() % 2 == 0) scene.drains.back().shape = BoxShape{at, {at.x + size, at.y + size, at.z + size}};
   }
   scene.fluid.capacity = random() % 2 == 0 ? 20000 : 0;
+  if (random() % 2 == 0) scene.domain->open = static_cast<SideMask>(random() % 64);
+  scene.domain->open_removes = scene.domain->open != 0;
+  if ((scene.domain->open & 3U) == 0 && random() % 2 == 0)
+    scene.domain->outflow = Outflow{.level = (domain.max.y - domain.min.y) * uniform(0.1, 0.9)};
 }
 
 std::vector<StressCase> flowCases() {

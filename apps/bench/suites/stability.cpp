@@ -17,7 +17,7 @@ std::string firstFailure(const StressCase& c, const StressOutcome& o, uint64_t p
     const offline::Stats& s = instant.stats;
     const std::string at = " at " + number(instant.time_s) + " s";
     const FluidLedger& l = s.ledger;
-    const bool flows = hasEmitters(c.scene) || !c.scene.drains.empty();
+    const bool flows = hasEmitters(c.scene) || !c.scene.drains.empty() || hasRemovingSides(c.scene);
     const uint64_t expected = flows ? particles + l.emitted - l.drained - l.left - l.inactive : particles;
     if (s.particles != expected)
       return "particles" + at + ": found " + std::to_string(s.particles) + ", expected " + std::to_string(expected);

@@ -68,7 +68,7 @@ struct FlowReading {
   double volume = 0;  ///< m^3: particles times spacing^3
 };
 
-/// Where the particles are: filled + emitted = present + drained + left + inactive, always.
+/// What has become of the particles: filled + emitted = active + drained + left + inactive, always.
 struct FluidLedger {
   uint64_t filled = 0;    ///< at the start
   uint64_t emitted = 0;   ///< by emitters
@@ -130,7 +130,7 @@ struct BodyPull {
 
 /// What an emitter does from the begin of an advance on, until the next target for it: a tap in a host's hand.
 struct EmitterTarget {
-  uint32_t emitter = 0;                ///< index into Scene::emitters; its times `from` and `until` still apply
+  uint32_t emitter = 0;                ///< index into Scene::emitters, behind them the inflow; its times `from` and `until` still apply
   double flow = 0;                     ///< m^3/s, >= 0; 0: closed
   std::optional<Double3> center = {};  ///< of the mouth, m; none: it stays
   std::optional<Double3> normal = {};  ///< direction of the flow, of any length above 0; none: it stays. The mouth turns the shorter way
@@ -149,7 +149,8 @@ struct FluidStep {
   /// Springs that pull bodies during the advance, at most 64. Several on one body act one after another. Not kept after addTo(). Ignored
   /// with `resume`, and until simulated time begins.
   std::span<const BodyPull> pulls = {};
-  /// Changes of emitters. One of a frame that is not executed has no effect. Not kept after addTo(). Ignored with `resume`.
+  /// Changes of emitters. Give those of a frame that is not executed again, with center and normal. Not kept after addTo(). Ignored with
+  /// `resume`.
   std::span<const EmitterTarget> emitters = {};
   /// The advance begins only if the last one has no time left when the device comes to it; else the last one continues, as with `resume`.
   /// So the next advance can be recorded before the last is known to be complete. Not where solids are driven, nor with `pulls` or
@@ -194,7 +195,7 @@ struct BodyFigures {
 /// Statistics at one time. Sums are evaluated in a fixed order, so they are deterministic.
 struct FluidStats {
   double time_s = 0;       ///< simulated time
-  uint64_t particles = 0;  ///< where particles come and go without inactive ones
+  uint64_t particles = 0;  ///< active ones; in a scene in which none come or go, inactive ones too
   FluidLedger ledger = {};
   double emitterBlocked_s = 0;  ///< since the start, in which some emitter had no place for its particles
   uint32_t substeps = 0;        ///< in the last advance

@@ -270,6 +270,9 @@ inline size_t bodyCount(const Scene& scene) {
 /// Whether the scene has emitters, or an inflow, which is one.
 inline bool hasEmitters(const Scene& scene) { return !scene.emitters.empty() || (scene.domain && scene.domain->inflow); }
 
+/// Whether particles that leave through some side of the domain are removed.
+inline bool hasRemovingSides(const Scene& scene) { return scene.domain && (scene.domain->open_removes || scene.domain->outflow); }
+
 /// The bit of a side among those of a SideMask.
 constexpr unsigned sideBit(Axis side) { return static_cast<unsigned>(side) ^ 1U; }
 

@@ -63,7 +63,7 @@ std::string FluidImpl::faultOfEmitters(const FluidStep& step) const {
 // The time up to now counts at the old rates.
 void FluidImpl::declareEmitters(Graph& graph, const FluidStep& step) {
   if (step.emitters.empty()) return;
-  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{0, 0});
+  declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{0, 0, 0});
   struct Update {
     uint64_t at;
     EmitterRecord record;
