@@ -56,6 +56,7 @@ std::vector<Experiment> bodyExperiments();        ///< rigid bodies in water
 std::vector<Experiment> slipExperiments();        ///< viscous fluid that sticks to walls, solids and bodies
 std::vector<Experiment> waterEntryExperiments();  ///< force on a wedge
 std::vector<Experiment> tapExperiments();         ///< level of a tank that a tap fills
+std::vector<Experiment> channelExperiments();     ///< laminar flow from an emitter to an open side
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
 /// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.
