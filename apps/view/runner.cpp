@@ -171,6 +171,7 @@ Expected<void> Runner::change(Scene scene) {
     solids[k].body->mass = scene.solids[k].body->mass;
   }
   scene.solids = std::move(solids);
+  if (hasState(*now)) wake(*now);
   // The snapshot contains the current gravity.
   if (scene.gravity_changes.empty() && hasState(*now)) setGravity(*now, scene.gravity);
   return continueFrom(std::move(scene), start_, std::move(*now));

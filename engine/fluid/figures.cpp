@@ -70,7 +70,8 @@ void FluidImpl::takeFlows(std::span<const std::byte> flow, std::span<const std::
 
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
   const Executed done{executed_.substeps - executedBefore_.substeps, executed_.iterations - executedBefore_.iterations,
-                      executed_.builds - executedBefore_.builds, executed_.noiseDampings - executedBefore_.noiseDampings};
+                      executed_.builds - executedBefore_.builds, executed_.noiseDampings - executedBefore_.noiseDampings,
+                      executed_.fallsAsleep - executedBefore_.fallsAsleep};
   const auto executed = [&](Start start) {
     switch (start) {
       case Start::Iterate:
@@ -79,6 +80,8 @@ std::vector<FluidPassRuns> FluidImpl::passRuns() const {
         return done.noiseDampings;
       case Start::Rebuild:
         return done.builds;
+      case Start::FallAsleep:
+        return done.fallsAsleep;
       default:
         return done.substeps;
     }
@@ -130,8 +133,8 @@ void FluidImpl::poll() const {
       if (given_up->uploads) staging_.reset();
     pending_.erase(pending_.begin(), next);
     const Pending& pending = pending_.front();
-    executedBefore_ = std::exchange(
-        executed_, {control.executedSubsteps, control.executedIterations, control.executedBuilds, control.executedNoiseDampings});
+    executedBefore_ = std::exchange(executed_, {control.executedSubsteps, control.executedIterations, control.executedBuilds,
+                                                control.executedNoiseDampings, control.executedFallsAsleep});
     recordedBefore_ = std::exchange(recordedLast_, pending.recorded);
     count = control.count;
     progress = {.known = true,
@@ -140,7 +143,8 @@ void FluidImpl::poll() const {
                 .timeDropped_s = control.timeDropped,
                 .substeps = control.substeps,
                 .iterations = control.iterations,
-                .listBuilds = control.builds};
+                .listBuilds = control.builds,
+                .asleep = control.sleep != kAwake};
     if (!setup.bodies.empty()) takeBodies(pending.graph.lock()->data(pending.bodies));
     if (setup.loads) takeLoads(pending.graph.lock()->data(pending.loads));
     if (!pressures.empty()) takePressures(pending.graph.lock()->data(pending.pressures));
@@ -172,6 +176,7 @@ void FluidImpl::poll() const {
         s.momentum[a] = mass * velocity[a];
         s.centerOfMass[a] = sum[a] / n;
       }
+      if (setup.params.sleeps != 0) s.sleeping = control.sleep != kAwake ? control.count : 0;
       if (!bodyRecords.empty()) s.bodies = figuresOf(bodyRecords, origin, gravity);
       s.maxSpeed = m.speedMax;
       s.nonFinite = sums.nonFinite;

@@ -92,7 +92,7 @@ class FluidImpl {
 
   /// What of it the device executed.
   struct Executed {
-    uint32_t substeps = 0, iterations = 0, builds = 0, noiseDampings = 0;
+    uint32_t substeps = 0, iterations = 0, builds = 0, noiseDampings = 0, fallsAsleep = 0;
   };
 
   struct Pending {
@@ -187,6 +187,7 @@ class FluidImpl {
   bool uploaded_ = false;
   std::optional<uint64_t> uploadFrame_;  // into whose commands the upload was recorded
   bool resumed_ = false;                 // from a snapshot
+  bool drivenMove_ = false;              // whether one moves in that advance by more than rounding
   float drivenSpeed_ = 0;                // m/s, of the fastest point of driven solids in the advance declared last
   double emptyTime_ = 0;                 // simulated time of a fluid without particles, s
   mutable std::deque<Pending> pending_;

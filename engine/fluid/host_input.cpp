@@ -64,6 +64,7 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
   Drive& drive = drives_.emplace_back();
   drive.number = ++driveCount_;
   drivenSpeed_ = 0;
+  drivenMove_ = false;
   for (DrivenSolid& driven : setup.driven) {
     const PoseRecord from = driven.pose;
     drive.from.push_back(from);
@@ -76,6 +77,7 @@ void FluidImpl::declareDrive(Graph& graph, const FluidStep& step) {
       driven.pose = recordOf(Pose{.center = along(centerOf(from), share, displacement),
                                   .rotation = target.rotation ? normalized(turned(rotationOf(from), share, turn)) : rotationOf(from)},
                              {});
+      drivenMove_ |= centerOf(driven.pose) != centerOf(from) || rotationOf(driven.pose) != rotationOf(from);
       drivenSpeed_ = std::max(drivenSpeed_, static_cast<float>(share * distance / step.advance_s));
     }
     const auto keyframes = drivenKeyframes(from, driven.pose, step.advance_s);

@@ -18,6 +18,8 @@ bool noSlipLoads(const FluidSetup& s) { return s.noSlipSolids && s.loads; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
+bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
+bool loadsAsleep(const FluidSetup& s) { return sleeps(s) && (loads(s) || probesPressure(s)); }
 bool separate(const FluidSetup& s) { return !s.mergesPasses; }
 bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1; }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
@@ -28,7 +30,7 @@ constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no
     kEmits{emits, "no emitters"}, kDrainsFluid{drains, "no drains, and no open sides that remove"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
     kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"},
-    kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping};
+    kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep};
 
 using P = FluidPass;
 using E = Extent;
@@ -40,6 +42,8 @@ constexpr std::array<S, 2> kEnd{S::Correct}, kEndOrDamped{S::Correct, S::NoiseDa
 constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::PlanEmission, "plan emission", "fluid/plan_emission", E::One, {}, {emits}},
     {P::Begin, "begin", "fluid/begin"},
+    {P::FallAsleep, "fall asleep", "fluid/fall_asleep", E::Particles, {S::FallAsleep}, kSleeps},
+    {P::LoadsAsleep, "loads asleep", "fluid/loads_asleep", E::One, {}, {loadsAsleep}},
     {P::Predict, "predict", "fluid/predict", E::Particles, {S::Predict}},
     {P::PredictFirstAtSolids, "predict first at solids", "fluid/predict", E::NearSolids, {S::Predict}, {solids}},
 

@@ -17,6 +17,8 @@ namespace rill {
 enum class FluidPass : uint8_t {
   PlanEmission,
   Begin,
+  FallAsleep,
+  LoadsAsleep,
   Predict,
   PredictFirstAtSolids,
   // A rebuild.
@@ -80,6 +82,7 @@ enum class Start : uint8_t {
   NoiseDamping = kStartNoiseDamping,
   Rebuild = kStartRebuild,
   Figures = kStartFigures,
+  FallAsleep = kStartFallAsleep,
   kCount
 };
 constexpr size_t kStarts = static_cast<size_t>(Start::kCount);

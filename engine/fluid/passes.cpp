@@ -28,8 +28,11 @@ void FluidImpl::importAll(Graph& graph) {
 void FluidImpl::declareBegin(Graph& graph, double advance, bool queued, size_t pulls) {
   declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{static_cast<float>(advance), 0, queued});
   declare(graph, FluidPass::Begin, Start::Always,
-          BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued, static_cast<uint32_t>(pulls)});
+          BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued, static_cast<uint32_t>(pulls),
+                    advance > 0 && drivenMove_});
   if (!(advance > 0)) return;
+  declare(graph, FluidPass::FallAsleep, Start::FallAsleep);
+  declare(graph, FluidPass::LoadsAsleep);
   declare(graph, FluidPass::Predict, Start::Predict);
   declare(graph, FluidPass::PredictFirstAtSolids, Start::Predict);
 }
@@ -151,12 +154,13 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   if (!pulls.empty()) declarePulls(graph, pulls);
   if (!step.resume) declareEmitters(graph, step);
   if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0), step.queued, pulls.size());
-  const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, 1u), setup.substepsPerBlock)) : 0;
+  const uint32_t least = setup.params.sleeps != 0 ? 0 : 1;
+  const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, least), setup.substepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {
     declareRebuild(graph);
     for (uint32_t k = 0; k < setup.substepsPerBlock; ++k) declareSubstep(graph, recording_.substeps & 1u, k == 0);
   }
-  if (blocks == 0) declareRebuild(graph);  // runs where there has been none yet
+  if (!advances) declareRebuild(graph);  // runs where there has been none yet
   declareSkipped(graph);
 
   Pending pending{.graph = implOf(graph).weakSelf(), .uploads = uploads};

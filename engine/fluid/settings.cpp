@@ -9,6 +9,7 @@
 #include "fluid/boundaries.hpp"
 #include "fluid/flows.hpp"
 #include "fluid/numbers.hpp"
+#include "fluid/sleep.hpp"
 #include "fluid/stability_limits.hpp"
 #include "shape/pose.hpp"
 #include "sph/artificial_pressure.hpp"
@@ -384,6 +385,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setSpeeds(scene, start, p);
   Double3 room;
   for (int a = 0; a < 3; ++a) room[a] = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 2 * extent[a];
+  addSleep(scene, widest(room), setup);
   setGains(scene, setup);
   setColumn(scene, start, setup);
   setLongestStep(scene, setup);

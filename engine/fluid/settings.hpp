@@ -72,6 +72,7 @@ struct FluidSetup {
   uint32_t substepsPerBlock = 1;                         ///< recorded between two places where the list can be rebuilt
   double artificialViscosity = 0;                        ///< Pa s, of a fluid at rest
   std::string whyNoNoiseDamping;                         ///< where that is 0
+  std::string whyNoSleep = "sleep is false";             ///< where the fluid never sleeps
   std::string whyNoArtificialPressure = "tensile is 0";  ///< where there is no artificial pressure
   StabilityLimits limits;
   double head = 0;                        ///< m^2/s^2, of the start's column

@@ -247,8 +247,16 @@ void forgetNeighbors(FluidSnapshot& s) {
   s.cell.clear();
 }
 
+void wake(FluidSnapshot& s) {
+  auto control = record<FluidControl>(s.control);
+  control.sleep = kAwake;
+  control.restShare = 0;
+  s.control = wordsOf(control);
+}
+
 void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
   forgetNeighbors(s);
+  wake(s);
   const bool warm = !s.warmStart.empty();
   auto sums = record<FluidSums>(s.sums);
   uint32_t next = s.id.empty() ? 0 : *std::max_element(s.id.begin(), s.id.end()) + 1;
@@ -279,6 +287,7 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
 void replaceSolids(FluidSnapshot& s, std::span<const Solid> before, std::span<const Solid> after, std::span<const Pose> poses,
                    const Double3& origin) {
   forgetNeighbors(s);
+  wake(s);
   const FluidSnapshot old = {.solids = s.solids, .bodies = s.bodies, .slips = s.slips};
   s.solids.clear();
   s.bodies.clear();
@@ -319,6 +328,7 @@ void setGravity(FluidSnapshot& s, const Double3& gravity) {
   control.gravityY = static_cast<float>(gravity[1]);
   control.gravityZ = static_cast<float>(gravity[2]);
   s.control = wordsOf(control);
+  wake(s);
 }
 
 Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape) {
@@ -326,7 +336,7 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (auto right = checkLengths(snapshot, shape); !right) return right;
   const auto control = record<FluidControl>(snapshot.control);
   const auto sums = record<FluidSums>(snapshot.sums);
-  if (control.listState > kListDue || !validPhase(control, shape) || control.timeLeft != 0)
+  if (control.listState > kListDue || !validPhase(control, shape) || control.timeLeft != 0 || control.sleep > kAsleep)
     return wrong("its control block is not that of an advance's end");
   std::vector<uint32_t> ids(snapshot.id);
   std::sort(ids.begin(), ids.end());

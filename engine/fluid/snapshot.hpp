@@ -32,6 +32,8 @@ bool hasNeighbors(const FluidSnapshot& snapshot);
 
 /// The neighbors are due to be found anew before the next substep: after a change of what is near whom.
 void forgetNeighbors(FluidSnapshot& snapshot);
+/// A fluid that sleeps goes on in substeps: after a change that it does not see.
+void wake(FluidSnapshot& snapshot);
 /// Particles that were not there before, with the next ids. Neighbors are forgotten.
 void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::span<const Float3> velocities);
 /// The solids `after` in place of `before`, of which those that both have are the same and keep their motion: solids are added or left

@@ -98,6 +98,8 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   std::memcpy(&control, data[0].data(), sizeof control);
   control.substeps = control.iterations = control.builds = 0;
   control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedNoiseDampings = 0;
+  control.executedFallsAsleep = 0;
+  control.timeAsleep = 0;
   control.timeDropped = 0;
   control.pulls = 0;
   snapshot_.control = records<uint32_t>(std::as_bytes(std::span(&control, 1)), sizeof control / 4);

@@ -127,7 +127,11 @@ struct Table<SolverSettings> {
                  .help = "neighbor search; list: a neighbor list that is kept for several substeps. grid: search the grid in every pass, "
                          "which needs less memory",
                  .words = kNeighborWords},
-            &SolverSettings::neighbors}};
+            &SolverSettings::neighbors},
+      Field{Info{.key = "sleep",
+                 .help = "true: fluid at rest takes no substeps until gravity, a solid, a body or the host moves it. Not without gravity",
+                 .since = "0.2"},
+            &SolverSettings::sleep}};
 };
 
 }  // namespace rill::model

@@ -18,7 +18,7 @@ layout(std430, binding = 6) writeonly buffer DensityCommandBlock { uint densityC
 #ifdef MERGED
 #include "fluid/density_commands.glsl"
 #endif
-#include "fluid/time.glsl"
+#include "fluid/sleep.glsl"
 
 void main() {
   control = stored.control;
@@ -33,6 +33,7 @@ void main() {
   control.builds = 0u;
   control.solidSpeed = max(params.solidSpeed, push.drivenSpeed);
   control.pulls = push.pulls;
+  sleepThrough(push.drives > 0u || push.pulls > 0u);
   gravityAt();
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
   control.speed = uintBitsToFloat(sums.speedMax);
@@ -41,9 +42,9 @@ void main() {
   control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
   if (control.nextRelaxation == 0.0) setGains();  // the first advance: from then on each substep sets those of the next
   control.desiredStep = plannedStep(control.desiredStep, cflStep(acceleration, control.head));
-  bool going = push.advance > 0.0;
+  bool going = control.timeLeft > 0.0;
   if (going) {
-    control.nextStep = fittedStep(push.advance, control.desiredStep);
+    control.nextStep = fittedStep(control.timeLeft, control.desiredStep);
     // the last advance was cut short; once a solid moves, the initial pressure no longer fits
     if (push.drivenSpeed > 0.0 && control.nextPhase == kPhaseInitialPressure) setNextPhase(kPhaseAdvancing, 0u);
     if (control.nextPhase == kPhaseInitialPressure) control.nextStep = params.initialPressureStep;

@@ -5,7 +5,7 @@
 #define RILL_CONTROL_GLSL
 #include "fluid/gains.glsl"
 #include "fluid/step_plan.glsl"
-#include "fluid/time.glsl"
+#include "fluid/sleep.glsl"
 
 // Settling: particles that overlap at the start are separated by position corrections without a
 // step in time, which add no velocity.
@@ -85,9 +85,14 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.substeps += 1u;
     addTime(control.step);
     control.travel += (control.speed + solidSpeed) * control.step;
+    vec3 gravityBefore = vec3(control.gravityX, control.gravityY, control.gravityZ);
     gravityAt();
-    float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
+    vec3 gravity = vec3(control.gravityX, control.gravityY, control.gravityZ);
+    float acceleration = length(gravity);
     control.desiredStep = plannedStep(tolerableStep(error), cflStep(acceleration, control.head));
+    accountRest(error, gravity != gravityBefore);
+    sums.motionLow = 0u;
+    sums.motionHigh = 0u;
     if (control.timeLeft < 1.0e-4 * control.step) control.timeLeft = 0.0;
     if (control.timeLeft > 0.0 && control.substeps >= params.maxSubsteps) {
       control.timeDropped += control.timeLeft;

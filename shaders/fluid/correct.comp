@@ -130,6 +130,11 @@ float endSubstep(uint i, uint head) {
   return sqrt(dot(v, v));
 }
 
+void addMotion(uint add) {
+  uint old = atomicAdd(sums.motionLow, add);
+  if (old + add < old) atomicAdd(sums.motionHigh, 1u);
+}
+
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
@@ -141,6 +146,10 @@ void main() {
   uint head = headOf(i, inRange);
   visitNeighbors(i, head, local, inRange);
   // No lane leaves before the maximum: those that are left need not come together again.
-  float fastest = subgroupMax(inRange ? endSubstep(i, head) : 0.0);
-  if (subgroupElect()) atomicMax(sums.speedMax, floatBitsToUint(fastest));
+  float speed = inRange ? endSubstep(i, head) : 0.0;
+  float fastest = subgroupMax(speed);
+  float motion = SLEEP ? subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion)) : 0.0;
+  if (!subgroupElect()) return;
+  atomicMax(sums.speedMax, floatBitsToUint(fastest));
+  if (SLEEP) addMotion(uint(motion / kMotionUnit + 0.5));
 }

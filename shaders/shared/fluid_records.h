@@ -42,6 +42,7 @@ RILL_CONST uint kStartCorrectOdd = 5u;     // pass of the next one, which does n
 RILL_CONST uint kStartNoiseDamping = 6u;   // the end of the first substep of a block, if the fluid is at rest
 RILL_CONST uint kStartRebuild = 7u;        // the neighbor list is due
 RILL_CONST uint kStartFigures = 8u;        // figures were asked for
+RILL_CONST uint kStartFallAsleep = 9u;     // the fluid falls asleep at the begin of an advance
 RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
 RILL_CONST uint kKeepCommands = 3u;        // likewise: the commands stay as they are
 RILL_CONST uint kNoBegin = 4u;             // likewise, where an advance continues: nothing is to be predicted
@@ -137,6 +138,10 @@ struct FluidParams {
   uint commandCount;     // dispatches that the device switches on and off
   float loadLever;       // m, unit length of the moments in the sums of solids
   float solidSpeedInCfl; // share of the speed of solids that the step follows: 1 where their walls may be thin
+  uint sleeps;            // 1: fluid at rest takes no substeps; see docs/notes/sleep.md
+  uint wakes;             // times in which something moves that is known beforehand; behind the gravity schedule
+  float sleepLength;      // m, the longest wave that the fluid can have, over 2
+  float kinematicViscosity;  // m^2/s
 };
 
 // Phases of the solver; the two before time begins need no step in time.
@@ -148,6 +153,11 @@ RILL_CONST uint kPhaseInitialPressure = 2u;   // the hydrostatic pressure is sol
 RILL_CONST uint kListValid = 0u;
 RILL_CONST uint kListDue = 1u;                // it must be rebuilt before the next substep
 RILL_CONST uint kListNone = 2u;               // there has been none yet
+
+// States of the fluid; see shaders/fluid/sleep.glsl.
+RILL_CONST uint kAwake = 0u;
+RILL_CONST uint kFallingAsleep = 1u;          // from the advance on that has begun
+RILL_CONST uint kAsleep = 2u;
 
 // Decided on the device, substep by substep; read as a uniform block by the passes, written by
 // control.glsl and begin.comp.
@@ -190,6 +200,10 @@ struct FluidControl {
   // Since the start, what prepares it too: for the host, which takes differences. The noise damping
   // pass runs in the first substeps of blocks.
   uint executedSubsteps, executedIterations, executedBuilds, executedNoiseDampings;
+  uint sleep;          // kAwake, kFallingAsleep or kAsleep
+  float restShare;     // share of the time at rest after which the fluid may fall asleep; 0 in motion
+  float timeAsleep;    // s of the advance
+  uint executedFallsAsleep;  // since the start, as executedSubsteps
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -209,7 +223,10 @@ struct FluidSums {
   uint columnHighX, columnHighY, columnHighZ;
   uint columnSumLowX, columnSumLowY, columnSumLowZ;
   uint columnSumHighX, columnSumHighY, columnSumHighZ;
+  uint motionLow, motionHigh;  // where fluid may sleep: 64-bit sum of squared speeds over gravity times spacing, in kMotionUnit
 };
+RILL_CONST float kMotionUnit = 1.0f / 4194304.0f;
+RILL_CONST float kMaxMotion = 4.0f;  // what one particle adds, at most
 RILL_CONST float kColumnUnits = 16.0f;
 RILL_CONST uint kMaxColumnPlace = (1u << 18) - 1u;
 RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
@@ -219,6 +236,7 @@ struct BeginPush {
   float drivenSpeed;   // m/s, the fastest driven solid of the advance
   uint queued;         // 1: only if the last advance has no time left; else that one continues
   uint pulls;          // as FluidControl has it
+  uint drives;         // 1: a driven solid moves in the advance
 };
 
 struct DensityPush {

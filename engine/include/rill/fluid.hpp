@@ -138,10 +138,12 @@ struct EmitterTarget {
 
 /// Parameters of Fluid::addTo().
 struct FluidStep {
-  double advance_s = 0;    ///< simulated time to advance by, s, >= 0; ignored with `resume`
-  bool resume = false;     ///< continue an advance that the last graph did not complete, as offline callers do
-  uint32_t substeps = 64;  ///< largest number to record, rounded up to multiples of Fluid::substepsPerBlock()
-  bool stats = false;      ///< measure FluidStats at the end
+  double advance_s = 0;  ///< simulated time to advance by, s, >= 0; ignored with `resume`
+  bool resume = false;   ///< continue an advance that the last graph did not complete, as offline callers do
+  /// Largest number to record, rounded up to multiples of Fluid::substepsPerBlock(). With solver.sleep it may be 0, where
+  /// FluidProgress::asleep is set: that is enough while the fluid sleeps. If it wakes, time is left, for a graph with `resume`.
+  uint32_t substeps = 64;
+  bool stats = false;  ///< measure FluidStats at the end
   /// Targets of driven solids. Each moves in a straight line and turns the shorter way, at constant velocities. Where a point of it might
   /// be faster than Solid::driven, it gets only part of both ways. Solids without a target rest. Not kept after addTo(). Ignored with
   /// `resume`, and without particles.
@@ -183,6 +185,7 @@ struct FluidProgress {
   uint32_t substeps = 0;     ///< in the advance
   uint32_t iterations = 0;   ///< Jacobi iterations in the advance, summed over substeps
   uint32_t listBuilds = 0;   ///< neighbor list builds in the advance
+  bool asleep = false;       ///< the fluid is at rest and takes no substeps (solver.sleep)
 };
 
 /// Sums over the bodies of a scene.
@@ -213,6 +216,7 @@ struct FluidStats {
   uint64_t loopBoundHits = 0;              ///< times that a shader loop reached its iteration limit since the start
   uint32_t listBuilds = 0;                 ///< neighbor list builds in the last advance
   std::optional<BodyFigures> bodies = {};  ///< if the scene has some; they are in no other figure
+  std::optional<uint64_t> sleeping = {};   ///< particles asleep, with solver.sleep
   double artificialViscosity_Pa_s = 0;     ///< what solver.artificial_viscosity adds to the shortest waves now, Pa s, before its bound
 };
 

@@ -96,6 +96,7 @@ struct SolverSettings {
   std::optional<double> artificial_viscosity = {};  ///< noise damping at rest, over density x spacing x sqrt(g x spacing), 0 .. 1
   KernelChoice kernel = KernelChoice::Wendland;
   NeighborChoice neighbors = NeighborChoice::List;
+  bool sleep = false;  ///< fluid at rest takes no substeps until something moves it
 };
 
 /// An axis-aligned box.

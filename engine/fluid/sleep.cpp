@@ -1,0 +1,65 @@
+#include "fluid/sleep.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "fluid/numbers.hpp"
+#include "fluid/stability_limits.hpp"
+
+namespace rill {
+namespace {
+
+constexpr double kRelease = 0.1;  // s after a body's release in which it need not have moved yet
+
+/// Seconds in which something moves.
+struct Interval {
+  double from = 0, until = 0;
+};
+
+bool moves(const Keyframe& from, const Keyframe& to) { return from.translate != to.translate || from.rotate != to.rotate; }
+
+/// In any order; they may overlap.
+std::vector<Interval> causes(const Scene& scene) {
+  constexpr double kForever = std::numeric_limits<float>::max();
+  std::vector<Interval> all;
+  for (const Solid& solid : scene.solids) {
+    for (size_t k = 1; k < solid.motion.size(); ++k)
+      if (moves(solid.motion[k - 1], solid.motion[k])) all.push_back({solid.motion[k - 1].at, solid.motion[k].at});
+    if (solid.body && solid.body->from > 0) all.push_back({solid.body->from, solid.body->from + kRelease});
+  }
+  for (const Emitter& emitter : scene.emitters) all.push_back({emitter.from, emitter.until.value_or(kForever)});
+  for (const Drain& drain : scene.drains) all.push_back({drain.from, drain.until.value_or(kForever)});
+  return all;
+}
+
+/// Sorted, those that touch as one.
+std::vector<Interval> merged(std::vector<Interval> all) {
+  std::ranges::sort(all, {}, &Interval::from);
+  std::vector<Interval> result;
+  for (const Interval& next : all) {
+    if (!result.empty() && next.from <= result.back().until)
+      result.back().until = std::max(result.back().until, next.until);
+    else
+      result.push_back(next);
+  }
+  return result;
+}
+
+}  // namespace
+
+void addSleep(const Scene& scene, double room, FluidSetup& setup) {
+  if (!scene.solver.sleep) return;
+  if (!(strongestGravity(scene) > 0)) {
+    setup.whyNoSleep = "no gravity";
+    return;
+  }
+  setup.params.sleeps = 1;
+  setup.params.sleepLength = f(std::max(room, scene.fluid.spacing));
+  setup.params.kinematicViscosity = f(scene.fluid.viscosity / scene.fluid.density);
+  const std::vector<Interval> wakes = merged(causes(scene));
+  for (const Interval& wake : wakes) setup.gravity.insert(setup.gravity.end(), {f(wake.from), f(wake.until), 0.0f, 0.0f});
+  setup.params.wakes = static_cast<uint32_t>(wakes.size());
+}
+
+}  // namespace rill
