@@ -229,7 +229,8 @@ class Capture {
     const bool jsonOnStdout = options_.stats && apps::isStandardOutput(*options_.stats);
     std::string text;
     if (options_.explain)
-      text = record_->passTable() + offline::memoryTable(simulation_->transientMemory()) + offline::readsText(simulation_->device());
+      text = record_->passTable() + record_->sleepText() + offline::memoryTable(simulation_->transientMemory()) +
+             offline::readsText(simulation_->device());
     if (!options_.quiet && record_->frames() > 0 && !jsonOnStdout) {
       if (!text.empty()) text += "\n";
       for (const Figure& figure : record_->figures()) {

@@ -106,6 +106,7 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   frame["picture_bound_hits"] = stats.pictureBoundHits;
   frame["list_builds"] = stats.listBuilds;
   frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
+  if (stats.sleeping) frame["sleeping"] = *stats.sleeping;
   frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
   const bool flows = hasEmitters(scene) || !scene.drains.empty() || hasRemovingSides(scene);
@@ -196,6 +197,7 @@ std::vector<Figure> Record::figures() const {
     addComponents("bodies.momentum", bodies.momentum, "kg m/s", figures);
     figures.push_back({"bodies.stopped", double(bodies.stopped), ""});
   }
+  if (scene_->solver.sleep) figures.push_back({"sleeping", double(last.sleeping.value_or(0)), ""});
   for (const Probe& probe : scene_->probes) {
     const auto found =
         std::find_if(last.probes.begin(), last.probes.end(), [&](const auto& measured) { return measured.first == probe.name; });
@@ -250,6 +252,15 @@ std::string Record::passTable() const {
           std::ranges::find(skipped, skip.first, &offline::SkippedPass::first) == skipped.end())
         skipped.push_back(skip);
   return offline::passTable(passes, skipped);
+}
+
+std::string Record::sleepText() const {
+  if (!scene_->solver.sleep || frames_.empty()) return {};
+  const auto without =
+      std::ranges::count_if(frames_, [](const apps::Instant& frame) { return frame.stats.sleeping > 0 && frame.stats.substeps == 0; });
+  const offline::Stats& last = frames_.back().stats;
+  return "asleep at the end: " + grouped(last.sleeping.value_or(0)) + " of " + grouped(last.particles) + " particles; " +
+         std::to_string(without) + " of " + std::to_string(frames_.size()) + " frames without substeps\n";
 }
 
 std::vector<std::string> Record::warnings() const {

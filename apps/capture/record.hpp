@@ -32,6 +32,8 @@ class Record {
 
   /// A table of passes: how often recorded and run, milliseconds over all frames, or the reason why skipped.
   std::string passTable() const;
+  /// How many particles sleep at the end; empty unless the scene asks for sleep.
+  std::string sleepText() const;
 
  private:
   double droppedSeconds() const;    ///< of this run

@@ -14,15 +14,16 @@ void Advances::setFluid(Fluid& fluid, const Scene& scene) {
 Expected<void> Advances::submit(const Work& work) {
   while (pieces_.inFlight() < PieceQueue::kMaxInFlight) {
     FluidStep step{.advance_s = work.advance_s, .targets = work.targets, .pulls = work.pulls};
+    const bool asleep = fluid_->progress().asleep;  // then an advance needs no substeps unless it wakes the fluid
     if (idle()) {
       if (ended_ >= work.advances) return {};
-      step.substeps = pacing_.first(work.budget_s);
-    } else if (const uint32_t rest = pacing_.next(work.budget_s); rest > 0) {
+      step.substeps = asleep ? 0 : pacing_.first(work.budget_s);
+    } else if (const uint32_t rest = asleep && inFlight() > 0 ? 0 : pacing_.next(work.budget_s); rest > 0) {
       step.resume = true;
       step.substeps = rest;
     } else if (mayQueue_ && work.pulls.empty() && begun() < work.advances) {
       step.queued = true;
-      step.substeps = pacing_.first(work.budget_s);
+      step.substeps = asleep ? 0 : pacing_.first(work.budget_s);
     } else {
       return {};
     }

@@ -303,6 +303,7 @@ class Simulation::Impl {
     pressuresBefore_.assign(pressures.begin(), pressures.end());
     volumesBefore_ = flowVolumes();
     advanced_s_ = 0;
+    if (measured_) asleep_ = fluid_->progress().asleep ? measured_ : std::nullopt;
     measured_.reset();
     advanced_ = {};
     wall_s_ = 0;
@@ -370,6 +371,7 @@ class Simulation::Impl {
       advanced_.listBuilds += done.listBuilds;
       // Time that the recorded substeps did not cover is dropped by the next advance.
       advanced_.timeDropped_s += std::max(done.timeDropped_s, done.timeLeft_s);
+      if (!done.asleep || done.substeps > 0) asleep_.reset();
     }
     return {};
   }
@@ -377,6 +379,11 @@ class Simulation::Impl {
   /// Measures statistics and reads particles back, once per time.
   Expected<void> measure() {
     if (measured_) return {};
+    if (asleep_) {  // as before: nothing has moved since
+      measured_ = asleep_;
+      measured_->time_s = fluid_->progress().time_s;
+      return {};
+    }
     ReadoutTickets tickets;
     auto ran = run(measureGraph_, [&](Graph& graph) {
       const FluidState state = fluid_->addTo(graph, {.stats = true});
@@ -404,7 +411,8 @@ class Simulation::Impl {
   PassLog log_;                         ///< since the last advance() began
   FluidProgress advanced_;              ///< of the last advance(), summed over its frames
   std::optional<FluidStats> measured_;  ///< at the current time
-  Readout readout_;                     ///< at the current time
+  std::optional<FluidStats> asleep_;    ///< at an earlier time, since which the fluid sleeps
+  Readout readout_;                     ///< at the current time, or then
   double time_s_ = 0;
   double wall_s_ = 0;
   uint64_t pictureBoundHits_ = 0;  ///< at the current time

@@ -76,6 +76,22 @@ TEST(Record, WarnsAboutDroppedTimeAndLimits) {
     EXPECT_NE(warnings[k].find(what), std::string::npos) << warnings[k];
 }
 
+TEST(Record, TellsHowManyParticlesSleepWhereAsked) {
+  Scene small = scene();
+  EXPECT_EQ(Record(small, {}, "").sleepText(), "");
+  small.solver.sleep = true;
+  offline::Stats awake = stats(0.001, 1, 1), asleep = awake;
+  awake.sleeping = 0;
+  awake.substeps = 36;
+  asleep.sleeping = asleep.particles = 1234;
+  Record record(small, {}, "");
+  record.add(0, awake);
+  record.add(0.5, asleep);
+  EXPECT_EQ(record.sleepText(), "asleep at the end: 1,234 of 1,234 particles; 1 of 2 frames without substeps\n");
+  EXPECT_EQ(figure(record, "sleeping"), 1234);
+  EXPECT_EQ(nlohmann::json::parse(record.json())["frames"][1]["sleeping"], 1234);
+}
+
 TEST(Record, DensityErrorExcludesFirstTenth) {
   const Scene small = scene();
   Record record(small, {}, "");
