@@ -143,7 +143,7 @@ class FluidImpl {
   FluidState described() const;  ///< without buffers
   bool validate(Graph& graph, const FluidStep& step) const;
   void importAll(Graph& graph);
-  void declareBegin(Graph& graph, double advance, bool queued = false, size_t pulls = 0);
+  void declareBegin(Graph& graph, double advance, bool queued = false, size_t pulls = 0, bool emitters = false);
   void declareRebuild(Graph& graph);
   /// Sorts by the cell of `places`; `keys` is the pass that finds it. The results are SortStart, SortArrived, SortOrder.
   void sortKeys(Graph& graph, FluidPass keys, Start start, FluidArray places, const SortTargets& targets, const Gate* gate);

@@ -25,11 +25,11 @@ void FluidImpl::importAll(Graph& graph) {
     refs_[slotOf(FluidArray::List, c)] = importWhole(graph, rowOf(FluidArray::List).label, buffer(FluidArray::List, c));
 }
 
-void FluidImpl::declareBegin(Graph& graph, double advance, bool queued, size_t pulls) {
+void FluidImpl::declareBegin(Graph& graph, double advance, bool queued, size_t pulls, bool emitters) {
   declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{static_cast<float>(advance), 0, queued});
   declare(graph, FluidPass::Begin, Start::Always,
           BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued, static_cast<uint32_t>(pulls),
-                    advance > 0 && drivenMove_});
+                    advance > 0 && (drivenMove_ || emitters)});
   if (!(advance > 0)) return;
   declare(graph, FluidPass::FallAsleep, Start::FallAsleep);
   declare(graph, FluidPass::LoadsAsleep);
@@ -153,7 +153,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   const std::span<const BodyPull> pulls = !step.resume && step.advance_s > 0 ? step.pulls : std::span<const BodyPull>();
   if (!pulls.empty()) declarePulls(graph, pulls);
   if (!step.resume) declareEmitters(graph, step);
-  if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0), step.queued, pulls.size());
+  if (!step.resume) declareBegin(graph, std::max(step.advance_s, 0.0), step.queued, pulls.size(), !step.emitters.empty());
   const uint32_t least = setup.params.sleeps != 0 ? 0 : 1;
   const uint32_t blocks = advances ? static_cast<uint32_t>(divideUp(std::max(step.substeps, least), setup.substepsPerBlock)) : 0;
   for (uint32_t block = 0; block < blocks; ++block) {

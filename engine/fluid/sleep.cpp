@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "fill/mouth.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/stability_limits.hpp"
 
@@ -28,7 +29,7 @@ std::vector<Interval> causes(const Scene& scene) {
       if (moves(solid.motion[k - 1], solid.motion[k])) all.push_back({solid.motion[k - 1].at, solid.motion[k].at});
     if (solid.body && solid.body->from > 0) all.push_back({solid.body->from, solid.body->from + kRelease});
   }
-  for (const Emitter& emitter : scene.emitters) all.push_back({emitter.from, emitter.until.value_or(kForever)});
+  for (const Emitter& emitter : emittersOf(scene)) all.push_back({emitter.from, emitter.until.value_or(kForever)});
   for (const Drain& drain : scene.drains) all.push_back({drain.from, drain.until.value_or(kForever)});
   return all;
 }
