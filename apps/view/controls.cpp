@@ -38,6 +38,7 @@ std::optional<std::array<Place, 2>> Controls::pullLine(const Session& session, c
 
 void Controls::reset() {
   touch_.reset();
+  tap_.reset();
   if (drag_ == Drag::Touch) drag_ = Drag::None;
 }
 
@@ -66,6 +67,7 @@ Expected<void> Controls::handle(const InputEvent& event, const Area& area, Sessi
       if (drag_ == Drag::Pan) camera.pan(right, down);
       if (drag_ == Drag::Dolly) camera.dolly(-20 * down, grabbed[0], grabbed[1]);
       if (drag_ == Drag::Touch) touch_.drag(session, camera.view(), ray(area));
+      tap_.move(session, camera.view(), ray(area));
       return {};
     }
     case InputEvent::Kind::Button: {

@@ -5,6 +5,7 @@
 #include "view/input.hpp"
 #include "view/layout.hpp"
 #include "view/orbit_camera.hpp"
+#include "view/tap.hpp"
 #include "view/touch.hpp"
 
 namespace rill::view {
@@ -22,6 +23,9 @@ class Controls {
   Expected<uint64_t> throwFluid(Session& session, const Area& area) const { return Touch::throwFluid(session, ray(area)); }
   /// Throws a crate likewise. What is grabbed is released.
   Expected<void> throwCrate(Session& session, const Area& area);
+  /// Pours at what is under the pointer, and at what it moves to, until closeTap(). `flow`: m^3/s; 0: Tap::defaultFlow().
+  Expected<void> openTap(Session& session, const Area& area, double flow) { return tap_.open(session, ray(area), flow); }
+  void closeTap(Session& session) { tap_.close(session); }
   /// In pixels of the window, where a body is pulled: from the point that it was grabbed by to where it is pulled to.
   std::optional<std::array<Place, 2>> pullLine(const Session& session, const Area& area) const;
 
@@ -31,6 +35,7 @@ class Controls {
   Ray ray(const Area& area) const;  // through the pointer
 
   Touch touch_;
+  Tap tap_;
   Place pointer_, grabbed_;  // now; when the button was pressed
   Drag drag_ = Drag::None;
 };

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,14 @@
 
 namespace rill::view {
 
+namespace {
+
+bool isKeyOf(Action action, int key) {
+  return std::ranges::any_of(keyBindings(), [&](const KeyBinding& binding) { return binding.action == action && binding.key == key; });
+}
+
+}  // namespace
+
 Expected<void> InputHandler::handle(const InputEvent& event) {
   switch (event.kind) {
     case InputEvent::Kind::Move:
@@ -18,10 +27,14 @@ Expected<void> InputHandler::handle(const InputEvent& event) {
     case InputEvent::Kind::Wheel:
       return shown_.handle(event, interface_.wantsMouse());
     case InputEvent::Kind::Key:
+      if (!event.down && isKeyOf(Action::Pour, event.code)) shown_.closeTap();
       if (!event.down || interface_.wantsKeys() || (event.modifiers & GLFW_MOD_CONTROL)) return {};
       if (event.code == GLFW_KEY_ESCAPE) settings_.help = false;
       for (const KeyBinding& binding : keyBindings())
         if (binding.key == event.code) return perform(binding.action, event.modifiers & GLFW_MOD_SHIFT);
+      return {};
+    case InputEvent::Kind::Focus:
+      if (!event.down) shown_.closeTap();  // the window does not see the key's release
       return {};
     case InputEvent::Kind::Drop:
       return scenes_.openDropped(event.text);
@@ -53,6 +66,8 @@ Expected<void> InputHandler::perform(Action action, bool shift) {
       return shown_.throwFluid();
     case Action::ThrowCrate:
       return shown_.throwCrate();
+    case Action::Pour:
+      return shown_.openTap();
     case Action::Home:
       shown_.camera().home();
       break;

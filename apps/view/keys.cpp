@@ -17,6 +17,7 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause or c
                                     {GLFW_KEY_V, "V", Action::NextView, "next view; with Shift the one before"},
                                     {GLFW_KEY_SPACE, "Space", Action::Throw, "throw a ball of fluid at what is under the pointer"},
                                     {GLFW_KEY_B, "B", Action::ThrowCrate, "throw a crate at it"},
+                                    {GLFW_KEY_T, "T", Action::Pour, "while held: pour fluid at it"},
                                     {GLFW_KEY_HOME, "Home", Action::Home, "frame the scene"},
                                     {GLFW_KEY_1, "1", Action::Front, "look from the front"},
                                     {GLFW_KEY_2, "2", Action::Back, "from behind"},
@@ -29,7 +30,7 @@ constexpr KeyBinding kBindings[] = {{GLFW_KEY_P, "P", Action::Pause, "pause or c
                                     {GLFW_KEY_UP, "Up", Action::TiltAway, "away from you"},
                                     {GLFW_KEY_DOWN, "Down", Action::TiltTowards, "towards you"},
                                     {GLFW_KEY_TAB, "Tab", Action::Panels, "hide or show the panels"},
-                                    {GLFW_KEY_T, "T", Action::Theme, "dark or light panels"},
+                                    {GLFW_KEY_L, "L", Action::Theme, "dark or light panels"},
                                     {GLFW_KEY_C, "C", Action::Screenshot, "write the window to a PNG file"},
                                     {GLFW_KEY_F1, "F1", Action::Help, "this help"}};
 

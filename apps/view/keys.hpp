@@ -16,6 +16,7 @@ enum class Action {
   NextView,
   Throw,
   ThrowCrate,
+  Pour,
   Home,
   Front,
   Back,

@@ -35,6 +35,7 @@ Expected<void> carryOut(const Requests& requests, Graphics& graphics, ShownScene
     if (auto done = shown.restart(); !done) return done;
   if (requests.density)
     if (auto done = shown.changeDensity(requests.density->solid, requests.density->density); !done) return done;
+  if (requests.emitter) shown.session().runner().setEmitter(*requests.emitter);
   if (requests.reset) return shown.reset(*requests.reset);
   return requests.change ? shown.change(*requests.change) : Expected<void>();
 }

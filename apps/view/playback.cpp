@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace rill::view {
@@ -62,12 +63,35 @@ void Playback::addBody(const Runner& runner, uint32_t solid) {
   histories_.body.height_m.add(body->center.y);
 }
 
+void Playback::addFlows(const Runner& runner) {
+  constexpr double kSmoothing = 0.1;  // weight of a step: layers leave a mouth whole
+  const Scene& scene = runner.scene();
+  if (!hasFlows(scene)) return;
+  uint64_t emitted = 0;
+  for (const FlowReading& reading : runner.fluid().emitted()) emitted += reading.particles;
+  const uint64_t present = runner.fluid().count();
+  if (!histories_.flows) histories_.flows = FlowHistory{.emitted = emitted, .present = present};
+  FlowHistory& flows = *histories_.flows;
+  const double litersPerSecond = 1000 * std::pow(scene.fluid.spacing, 3) / Clock::kStep;
+  const double in = static_cast<double>(emitted - std::min(flows.emitted, emitted));
+  const double out = std::max(in - (static_cast<double>(present) - static_cast<double>(flows.present)), 0.0);  // fluid may be thrown, too
+  const auto add = [&](History& history, double particles) {
+    const double before = history.values().empty() ? 0 : history.values().back();
+    history.add(before + kSmoothing * (particles * litersPerSecond - before));
+  };
+  add(flows.in_L_s, in);
+  add(flows.out_L_s, out);
+  flows.emitted = emitted;
+  flows.present = present;
+}
+
 Expected<bool> Playback::finished(Runner& runner, const Frame& frame) {
   const StepFigures& step = runner.last();
   histories_.particles.add(runner.fluid().count());
   histories_.substeps.add(step.substeps);
   histories_.iterations.add(step.iterations);
   histories_.wall_ms.add(1e3 * step.seconds);
+  addFlows(runner);
   addBody(runner, frame.body);
   if (!runner.betweenSteps() || !measuresIn(frame)) return true;
   measured_s_ = frame.now_s;

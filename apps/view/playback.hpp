@@ -32,9 +32,16 @@ struct BodyHistory {
   History load_N = History(600), height_m = History(600);  ///< vertical load of the fluid; of its center of mass
 };
 
+/// Of particles that come and go, over ten seconds of simulated time.
+struct FlowHistory {
+  History in_L_s = History(600), out_L_s = History(600);  ///< from emitters; through drains and open sides
+  uint64_t emitted = 0, present = 0;                      ///< particles after the last step
+};
+
 struct Histories {
   History particles, substeps, iterations, wall_ms, error;
   BodyHistory body;
+  std::optional<FlowHistory> flows;  ///< where particles come and go
   std::map<std::string, History, std::less<>> passes;
   uint64_t passesOf = UINT64_MAX;  ///< the last step whose times were added
 };
@@ -65,6 +72,7 @@ class Playback {
  private:
   bool measuresIn(const Frame& frame) const { return frame.measureEvery_s && frame.now_s - measured_s_ >= *frame.measureEvery_s; }
   Expected<bool> finished(Runner& runner, const Frame& frame);
+  void addFlows(const Runner& runner);
   void addBody(const Runner& runner, uint32_t solid);
   /// Does `work`, which ends at most one step, and tells the clock. True where a step was completed.
   template <class Work>

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/vector_math.hpp"
+#include "fill/mouth.hpp"
 #include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
@@ -27,7 +28,8 @@ Expected<std::unique_ptr<Runner>> Runner::create(offline::Context& context, Scen
   runner->scene_.fluid.spacing = runner->start_->spacing;
   runner->firstBounds_ = fluidBounds(runner->scene_, *runner->start_);
   if (auto made = runner->makeFluid(nullptr); !made) return made.error();
-  runner->kept_ = {runner->scene_, runner->start_, runner->firstBounds_};
+  for (const Emitter& emitter : runner->scene_.emitters) runner->flows_.push_back(flowOf(emitter));
+  runner->keep(FluidSnapshot());
   return runner;
 }
 
@@ -36,14 +38,30 @@ Expected<std::unique_ptr<Runner>> Runner::resume(offline::Context& context, cons
   runner->start_ = kept.start;
   runner->firstBounds_ = kept.firstBounds;
   runner->steps_ = kept.steps;
+  runner->tapRoom_ = kept.tapRoom;
+  runner->flows_ = kept.flows;
+  if (runner->tap()) runner->flows_.back() = 0;
+  for (uint32_t k = 0; k < kept.flows.size(); ++k)
+    if (runner->flows_[k] != flowOf(kept.scene.emitters[k])) runner->setEmitter({.emitter = k, .flow = runner->flows_[k]});
   if (auto made = runner->makeFluid(kept.snapshot ? &*kept.snapshot : nullptr); !made) return made.error();
   if (auto begun = runner->begin(); !begun) return begun.error();
   runner->kept_ = kept;
   return runner;
 }
 
+Expected<Fluid> Runner::fluidOf(const Scene& scene, const ParticleSet& start, const FluidSnapshot* from) {
+  uint64_t capacity = 0;
+  if (tapRoom_ > 0) {
+    Scene own = scene;  // without the tap
+    own.emitters.pop_back();
+    capacity = std::min<uint64_t>(capacityOf(own, start.positions.size()) + tapRoom_, maxParticles(context_.device(), scene));
+  }
+  return Fluid::create(context_.device(),
+                       {.scene = &scene, .particles = &start, .snapshot = from, .capacity = static_cast<uint32_t>(capacity)});
+}
+
 Expected<void> Runner::makeFluid(const FluidSnapshot* from) {
-  auto fluid = Fluid::create(context_.device(), {.scene = &scene_, .particles = start_.get(), .snapshot = from});
+  auto fluid = fluidOf(scene_, *start_, from);
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
   advances_.setFluid(*fluid_, scene_);
@@ -69,8 +87,11 @@ Expected<void> Runner::advancePiece(double budget_s, bool more) {
                                      .advances = advances_.ended() + (more ? 2 : 1),
                                      .budget_s = budget_s,
                                      .targets = targets_,
-                                     .pulls = pulls_};
+                                     .pulls = pulls_,
+                                     .emitters = emitters_};
+  const uint64_t before = begun();
   if (auto submitted = advances_.submit(work); !submitted) return submitted;
+  if (begun() > before) emitters_.clear();
   return finishPiece();
 }
 
@@ -137,7 +158,7 @@ Expected<FluidSnapshot> Runner::snapshot() {
 }
 
 Expected<void> Runner::continueFrom(Scene scene, std::shared_ptr<const ParticleSet> start, FluidSnapshot from) {
-  auto fluid = Fluid::create(context_.device(), {.scene = &scene, .particles = start.get(), .snapshot = hasState(from) ? &from : nullptr});
+  auto fluid = fluidOf(scene, *start, hasState(from) ? &from : nullptr);
   if (!fluid) return fluid.error();
   fluid_ = std::move(*fluid);
   scene_ = std::move(scene);
@@ -148,7 +169,7 @@ Expected<void> Runner::continueFrom(Scene scene, std::shared_ptr<const ParticleS
 }
 
 void Runner::keep(FluidSnapshot now) {
-  kept_ = {scene_, start_, firstBounds_, {}, steps_};
+  kept_ = {scene_, start_, firstBounds_, {}, steps_, flows_, tapRoom_};
   if (hasState(now)) kept_.snapshot = std::move(now);
 }
 
@@ -172,6 +193,7 @@ Expected<void> Runner::change(Scene scene) {
   }
   scene.solids = std::move(solids);
   if (hasState(*now)) wake(*now);
+  scene.emitters = scene_.emitters;
   // The snapshot contains the current gravity.
   if (scene.gravity_changes.empty() && hasState(*now)) setGravity(*now, scene.gravity);
   return continueFrom(std::move(scene), start_, std::move(*now));
@@ -191,11 +213,39 @@ Expected<void> Runner::changeSolids(std::vector<Solid> solids) {
   return {};
 }
 
+Expected<void> Runner::addTap(const Emitter& emitter, uint64_t room) {
+  auto now = snapshot();
+  if (!now) return now.error();
+  Scene scene = scene_;
+  scene.emitters.push_back(emitter);
+  if (hasState(*now)) addEmitters(*now, scene_, scene, start_->origin);
+  tapRoom_ = room;
+  flows_.push_back(0);
+  if (auto done = continueFrom(std::move(scene), start_, std::move(*now)); !done) {
+    tapRoom_ = 0;
+    flows_.pop_back();
+    return done;
+  }
+  setEmitter({.emitter = static_cast<uint32_t>(flows_.size() - 1)});
+  return {};
+}
+
+std::optional<uint32_t> Runner::tap() const {
+  return tapRoom_ > 0 ? std::optional(static_cast<uint32_t>(flows_.size() - 1)) : std::nullopt;
+}
+
+void Runner::setEmitter(const EmitterTarget& target) {
+  std::erase_if(emitters_, [&](const EmitterTarget& other) { return other.emitter == target.emitter; });
+  emitters_.push_back(target);
+  flows_[target.emitter] = target.flow;
+}
+
 Expected<uint64_t> Runner::add(const Fill& fill) {
   auto now = snapshot();
   if (!now) return now.error();
   Scene only = scene_;
   only.fill = {fill};
+  only.fluid.capacity = 0;
   if (only.fluid.spacing > 0) only.fluid.particles = 0;  // the spacing of what is there, whatever it was derived from
   for (uint32_t k = 0; k < only.solids.size(); ++k) {
     const Pose current = pose(k), first = solidPose(scene_.solids[k], 0);

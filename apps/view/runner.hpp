@@ -16,6 +16,11 @@
 
 namespace rill::view {
 
+/// Whether particles come or go.
+inline bool hasFlows(const Scene& scene) {
+  return !scene.emitters.empty() || !scene.drains.empty() || (scene.domain && scene.domain->open_removes);
+}
+
 /// Figures of a completed step.
 struct StepFigures {
   uint32_t substeps = 0, iterations = 0, pieces = 0;
@@ -30,6 +35,8 @@ struct KeptState {
   Bounds firstBounds;
   std::optional<FluidSnapshot> snapshot = {};  ///< none: from the start
   uint64_t steps = 0;                          ///< finished
+  std::vector<double> flows = {};              ///< of the emitters, m^3/s
+  uint64_t tapRoom = 0;                        ///< particles; 0: no tap was added
 };
 
 /// After N steps the state is bitwise equal to frame N of `rill-capture --fps 60`, however the steps are split. Pieces, of the next step,
@@ -64,11 +71,13 @@ class Runner {
   // These continue from the current state with a change; the current step is completed first. Errors as create(); then
   // nothing is changed.
 
-  /// Applies the settings of a scene that differs only in keys for which Session::isLive() is true. Solids stay as they are, but for the
-  /// mass of bodies.
+  /// Applies the settings of a scene that differs only in keys for which Session::isLive() is true. Emitters and solids stay as they are,
+  /// but for the mass of bodies.
   Expected<void> change(Scene scene);
   /// Replaces the solids. Existing ones come first, in the same order, and keep their pose(), bodies also their velocity and load.
   Expected<void> changeSolids(std::vector<Solid> solids);
+  /// Adds an emitter, closed, behind those of the scene, with room for `room` > 0 particles in addition, where the device has it. Once.
+  Expected<void> addTap(const Emitter& emitter, uint64_t room);
   /// Adds the particles of a fill where there is room, and returns their number. BadInput where less than a quarter fit.
   Expected<uint64_t> add(const Fill& fill);
 
@@ -85,6 +94,12 @@ class Runner {
   /// Pulls a body in the next step and those that follow, in place of a pull before.
   void setPull(const BodyPull& pull) { pulls_ = {pull}; }
   void clearPulls() { pulls_.clear(); }
+  /// Index of the emitter that was added.
+  std::optional<uint32_t> tap() const;
+  /// Changes an emitter from the next step on.
+  void setEmitter(const EmitterTarget& target);
+  /// Flows of the emitters, m^3/s: those of the scene, or the last that were set.
+  std::span<const double> flows() const { return flows_; }
   /// Current positions, m relative to start().origin, in the order of the device.
   Expected<std::vector<Float3>> positions();
 
@@ -117,6 +132,7 @@ class Runner {
   Expected<FluidSnapshot> snapshot();
   uint32_t count() const { return fluid_->count(); }
   Expected<void> continueFrom(Scene scene, std::shared_ptr<const ParticleSet> start, FluidSnapshot from);
+  Expected<Fluid> fluidOf(const Scene& scene, const ParticleSet& start, const FluidSnapshot* from);
   Expected<void> makeFluid(const FluidSnapshot* from);
   void keep(FluidSnapshot now);
 
@@ -127,6 +143,9 @@ class Runner {
   std::optional<Fluid> fluid_;
   std::vector<SolidTarget> targets_;
   std::vector<BodyPull> pulls_;
+  std::vector<EmitterTarget> emitters_;  ///< for the next step that begins
+  std::vector<double> flows_;
+  uint64_t tapRoom_ = 0;
   Graph graph_, measureGraph_;
   offline::Advances advances_;
   uint64_t steps_ = 0;

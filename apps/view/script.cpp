@@ -24,6 +24,8 @@ constexpr Command kCommands[] = {{"move", "X Y", "move the pointer, in pixels fr
                                  {"release", "left|middle|right", "release it", 1},
                                  {"wheel", "STEPS", "turn the wheel; positive is away from you", 1},
                                  {"key", "NAME", "press and release a key: P, Tab, F1, Enter, Shift+V ...", 1},
+                                 {"hold", "NAME", "press a key, and keep it pressed", 1},
+                                 {"lift", "NAME", "release it", 1},
                                  {"type", "TEXT", "type text without spaces into the focused field", 1},
                                  {"drop", "FILE", "drop a file onto the window", 1},
                                  {"set", "KEY=VALUE", "override a key of the scene, for example fluid.viscosity=0.1", 1},
@@ -110,14 +112,16 @@ std::string parseLine(const std::vector<std::string_view>& words, std::vector<Sc
     const auto steps = finite(first);
     if (!steps) return expected();
     line.input = {.kind = InputEvent::Kind::Wheel, .y = *steps};
-  } else if (what == "key") {
+  } else if (what == "key" || what == "hold" || what == "lift") {
     std::string_view name = first;
     const int modifiers = takeModifiers(name);
     const auto key = keyNamed(name);
     if (!key) return "unknown key " + inQuotes(name);
-    line.input = {.kind = InputEvent::Kind::Key, .code = *key, .down = true, .modifiers = modifiers};
-    lines.push_back(line);
-    line.input.down = false;
+    line.input = {.kind = InputEvent::Kind::Key, .code = *key, .down = what != "lift", .modifiers = modifiers};
+    if (what == "key") {
+      lines.push_back(line);
+      line.input.down = false;
+    }
   } else if (what == "type" || what == "drop") {
     line.input.kind = what == "type" ? InputEvent::Kind::Text : InputEvent::Kind::Drop;
     line.input.text = first;

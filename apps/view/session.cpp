@@ -81,6 +81,12 @@ Expected<uint64_t> Session::add(const Fill& fill) {
   return added;
 }
 
+Expected<void> Session::addTap(const Emitter& emitter, uint64_t room) {
+  auto added = runner_->addTap(emitter, room);
+  if (added) resetPainter();
+  return added;
+}
+
 void Session::release() {
   painter_.reset();
   if (runner_) released_ = runner_->kept();

@@ -35,6 +35,7 @@ class Session {
   /// As in Runner. These changes are not part of the scene file: restart() drops them and text() omits them.
   Expected<void> changeSolids(std::vector<Solid> solids);
   Expected<uint64_t> add(const Fill& fill);
+  Expected<void> addTap(const Emitter& emitter, uint64_t room);
 
   /// Restarts with the changes.
   Expected<void> restart();

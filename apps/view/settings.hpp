@@ -8,8 +8,9 @@ namespace rill::view {
 struct Settings {
   std::string view = "final";
   bool paused = false, panels = true, help = false;
-  uint32_t body = 0;  ///< index of the solid whose figures the panel of bodies shows
-  double scale = 0;   ///< resolution of the image; 0: automatic
+  uint32_t body = 0;   ///< index of the solid whose figures the panel of bodies shows
+  double tapFlow = 0;  ///< of the tap under the pointer, m^3/s; 0: Tap::defaultFlow()
+  double scale = 0;    ///< resolution of the image; 0: automatic
 };
 
 }  // namespace rill::view

@@ -105,6 +105,12 @@ Expected<void> ShownScene::throwCrate() {
   return message_.report(thrown);
 }
 
+Expected<void> ShownScene::openTap() {
+  const auto opened = controls_.openTap(*session_, layout_.picture, settings_.tapFlow);
+  dirty_ = true;
+  return message_.report(opened);
+}
+
 Expected<void> ShownScene::changeDensity(uint32_t solid, double density) {
   dirty_ = true;
   return message_.report(session_->changeDensity(solid, density));

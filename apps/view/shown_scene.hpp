@@ -36,6 +36,11 @@ class ShownScene {
   /// Throws fluid at what is under the pointer.
   Expected<void> throwFluid();
   Expected<void> throwCrate();  ///< likewise
+  /// Pours fluid above what is under the pointer, until closeTap().
+  Expected<void> openTap();
+  void closeTap() {
+    if (session_) controls_.closeTap(*session_);
+  }
   /// Changes the density of a body, kg/m^3.
   Expected<void> changeDensity(uint32_t solid, double density);
   void pauseAfterOneStep();

@@ -8,7 +8,7 @@
 #include "core/words.hpp"
 #include "shape/mass.hpp"
 #include "shared/solid_records.h"
-#include "views/bounds.hpp"
+#include "view/scene_box.hpp"
 
 namespace rill::view {
 namespace {
@@ -25,36 +25,12 @@ constexpr double kCrateDensity = 500;           // kg/m^3
 constexpr int kMaxPlaces = 400;                 // along the ray, that are tried for a thrown crate
 constexpr double kPickRadius = 0.75;            // spacings: above 0.71 the spheres of a lattice leave no gap
 
-struct Box {
-  Double3 low{}, high{};
-  double longest() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
-};
-
-/// The domain, or the bounds of the fluid at the start, extended by their longest side.
-Box boxOf(const Session& session) {
-  Box room{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
-  const auto& domain = session.scene().domain;
-  const Bounds& fluid = session.runner().firstBounds();
-  if (!domain && fluid.empty()) return room;
-  for (size_t a = 0; a < 3; ++a) {
-    room.low[a] = domain ? domain->min[a] : fluid.min[a];
-    room.high[a] = domain ? domain->max[a] : fluid.max[a];
-  }
-  if (domain) return room;
-  const double around = room.longest();
-  for (size_t a = 0; a < 3; ++a) {
-    room.low[a] -= around;
-    room.high[a] += around;
-  }
-  return room;
-}
-
 }  // namespace
 
-double Touch::maxSpeed(const Session& session) { return boxOf(session).longest(); }
+double Touch::maxSpeed(const Session& session) { return sceneBox(session).longest(); }
 
 double Touch::ballRadius(const Session& session) {
-  return std::max(kBall * boxOf(session).longest(), kMinBall * session.scene().fluid.spacing);
+  return std::max(kBall * sceneBox(session).longest(), kMinBall * session.scene().fluid.spacing);
 }
 
 Expected<bool> Touch::grab(Session& session, const CameraView& eye, const Ray& ray, Hold hold) {
@@ -144,7 +120,7 @@ std::optional<std::array<Double3, 2>> Touch::pullLine(const Session& session) co
 }
 
 Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
-  const Box room = boxOf(session);
+  const SceneBox room = sceneBox(session);
   const double spacing = session.scene().fluid.spacing;
   const double shortest = std::min({room.high[0] - room.low[0], room.high[1] - room.low[1], room.high[2] - room.low[2]});
   const double radius = std::min(kThrown * ballRadius(session), 0.5 * shortest - spacing);
@@ -164,7 +140,7 @@ Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
 
 double Touch::crateEdge(const Session& session) {
   const double spacing = session.scene().fluid.spacing;
-  return std::clamp(kCrate * boxOf(session).longest(), kMinCrate * spacing, kMaxCrate * spacing);
+  return std::clamp(kCrate * sceneBox(session).longest(), kMinCrate * spacing, kMaxCrate * spacing);
 }
 
 namespace {
@@ -212,7 +188,7 @@ Expected<void> Touch::throwCrate(Session& session, const Ray& ray) {
   const auto refused = [](std::string why) { return Error{ErrorKind::BadInput, "A crate cannot be thrown there: " + std::move(why)}; };
   std::vector<Solid> solids = session.scene().solids;
   if (solids.size() >= kMaxSolids) return refused("the scene has " + grouped(kMaxSolids) + " solids, the most that there may be");
-  const Box room = boxOf(session);
+  const SceneBox room = sceneBox(session);
   const double edge = crateEdge(session), spacing = session.scene().fluid.spacing, gap = 0.5 * edge + 0.1 * spacing;
   const auto enters = entry(ray, room.low, room.high);
   if (!enters) return refused("it would miss the scene; point into the tank");

@@ -13,6 +13,7 @@
 #include "core/words.hpp"
 #include "fluid/arrays.hpp"
 #include "fluid/boundaries.hpp"
+#include "fluid/flows.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "shape/contact_points.hpp"
 #include "shape/records.hpp"
@@ -320,6 +321,30 @@ void replaceSolids(FluidSnapshot& s, std::span<const Solid> before, std::span<co
   auto sums = record<FluidSums>(s.sums);
   sums.bodySpeed = std::max(sums.bodySpeed, std::bit_cast<uint32_t>(fastest));
   s.sums = wordsOf(sums);
+}
+
+void addEmitters(FluidSnapshot& s, const Scene& before, const Scene& after, const Double3& origin) {
+  forgetNeighbors(s);
+  if (after.emitters.size() <= before.emitters.size()) return;
+  if (s.flows.empty()) {  // no particle has come or gone so far
+    FlowRecord ledger = firstLedger(static_cast<uint32_t>(s.id.size()), record<FluidSums>(s.sums).nonFinite);
+    if (!s.id.empty()) ledger.nextId = std::max(ledger.nextId, *std::ranges::max_element(s.id) + 1);
+    s.flows = wordsOf(ledger);
+  }
+  const auto control = record<FluidControl>(s.control);
+  FluidSetup setup;
+  addFlows(after, origin, setup);
+  std::vector<uint32_t> fresh;
+  for (size_t k = before.emitters.size(); k < setup.emitters.size(); ++k) {
+    EmitterRecord& emitter = setup.emitters[k];
+    emitter.speed = emitter.rate = 0;
+    emitter.doneHigh = control.timeHigh;
+    emitter.doneLow = control.timeLow;
+    const std::vector<uint32_t> words = wordsOf(emitter);
+    fresh.insert(fresh.end(), words.begin(), words.end());
+  }
+  const size_t old = (sizeof(FlowRecord) + before.emitters.size() * sizeof(EmitterRecord)) / 4;
+  s.flows.insert(s.flows.begin() + static_cast<std::ptrdiff_t>(old), fresh.begin(), fresh.end());
 }
 
 void setGravity(FluidSnapshot& s, const Double3& gravity) {

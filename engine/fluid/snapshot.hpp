@@ -40,6 +40,9 @@ void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::spa
 /// out at the end. `poses`: of those after, in the scene; bodies that go on keep theirs. Neighbors are forgotten.
 void replaceSolids(FluidSnapshot& snapshot, std::span<const Solid> before, std::span<const Solid> after, std::span<const Pose> poses,
                    const Double3& origin);
+/// The emitters of `after`, of which those of `before` come first and go on, in the same order. The others are closed until
+/// FluidStep::emitters opens them. `before` and `after` differ in nothing else but the capacity. Neighbors are forgotten.
+void addEmitters(FluidSnapshot& snapshot, const Scene& before, const Scene& after, const Double3& origin);
 /// Gravity from the present instant on, m/s^2, where no schedule changes it.
 void setGravity(FluidSnapshot& snapshot, const Double3& gravity);
 

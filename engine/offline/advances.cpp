@@ -13,7 +13,7 @@ void Advances::setFluid(Fluid& fluid, const Scene& scene) {
 
 Expected<void> Advances::submit(const Work& work) {
   while (pieces_.inFlight() < PieceQueue::kMaxInFlight) {
-    FluidStep step{.advance_s = work.advance_s, .targets = work.targets, .pulls = work.pulls};
+    FluidStep step{.advance_s = work.advance_s, .targets = work.targets, .pulls = work.pulls, .emitters = work.emitters};
     const bool asleep = fluid_->progress().asleep;  // then an advance needs no substeps unless it wakes the fluid
     if (idle()) {
       if (ended_ >= work.advances) return {};
@@ -21,7 +21,7 @@ Expected<void> Advances::submit(const Work& work) {
     } else if (const uint32_t rest = asleep && inFlight() > 0 ? 0 : pacing_.next(work.budget_s); rest > 0) {
       step.resume = true;
       step.substeps = rest;
-    } else if (mayQueue_ && work.pulls.empty() && begun() < work.advances) {
+    } else if (mayQueue_ && work.pulls.empty() && work.emitters.empty() && begun() < work.advances) {
       step.queued = true;
       step.substeps = asleep ? 0 : pacing_.first(work.budget_s);
     } else {

@@ -29,8 +29,9 @@ class Advances {
     uint64_t advances = 0;                                      ///< how many may have begun, counted as ended()
     double budget_s = std::numeric_limits<double>::infinity();  ///< time that a piece may take
     std::span<const SolidTarget> targets = {};
-    std::span<const BodyPull> pulls = {};  ///< with some, an advance begins only once the last one is known to be complete
-    uint32_t substeps = 0;                 ///< of every piece; 0: by the budget
+    std::span<const BodyPull> pulls = {};          ///< with some, an advance begins only once the last one is known to be complete
+    std::span<const EmitterTarget> emitters = {};  ///< of the next advance that begins; it waits likewise
+    uint32_t substeps = 0;                         ///< of every piece; 0: by the budget
   };
   /// Submits pieces until enough are in flight or nothing else is expected to be necessary.
   Expected<void> submit(const Work& work);

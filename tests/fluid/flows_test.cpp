@@ -418,6 +418,37 @@ TEST_F(FlowsTest, GoesOnFromASnapshotBitForBit) {
   EXPECT_GT(whole->stats().ledger.drained, 10u);
 }
 
+// A tank with emitters and a drain, and one without anything that comes or goes.
+TEST_F(FlowsTest, SnapshotGoesOnWithEmittersThatAreAdded) {
+  for (const bool busy : {true, false}) {
+    SCOPED_TRACE(busy);
+    Trial t = busy ? busyTank() : tank();
+    auto before = start(t);
+    for (int frame = 0; frame < 3; ++frame) before->advance(1.0 / 60);
+    const FluidLedger ledger = before->stats().ledger;
+    FluidSnapshot state = before->saved();
+    const size_t present = particles(state).size();
+    const Scene old = t.scene;
+    t.scene.emitters.push_back(disc({0.8, 0.85, 0.25}, 0.1, {0, -1, 0}, 1));
+    addEmitters(state, old, t.scene, t.origin);
+    auto after = start(t, &state);
+    const auto added = static_cast<uint32_t>(old.emitters.size());
+    for (int frame = 0; frame < 3; ++frame) after->advance(1.0 / 60);
+    EXPECT_EQ(after->fluid().emitted()[added].particles, 0u) << "closed at first";
+    if (!busy) EXPECT_EQ(particles(after->saved()).size(), present);
+    const MouthLattice lattice = mouthLattice(t.scene.emitters[added].mouth, t.d());
+    const double flow = 0.02;
+    after->emitters = {{.emitter = added, .flow = flow}};
+    for (int frame = 0; frame < 12; ++frame) after->advance(1.0 / 60);
+    EXPECT_NEAR(after->fluid().emitted()[added].volume, flow * 12 / 60, lattice.area * lattice.thickness);
+    const FluidLedger now = after->stats().ledger;
+    EXPECT_EQ(now.filled, ledger.filled);
+    EXPECT_EQ(now.filled + now.emitted, particles(after->saved()).size() + now.drained + now.left + now.inactive);
+    if (busy) EXPECT_GT(now.drained, ledger.drained) << "the drain goes on";
+    if (busy) EXPECT_GE(after->fluid().emitted()[0].particles, before->fluid().emitted()[0].particles);
+  }
+}
+
 TEST_F(FlowsTest, PiecesOfAnAdvanceDoNotMatter) {
   const Trial t = busyTank();
   std::optional<FluidSnapshot> first;

@@ -38,6 +38,15 @@ TEST(Script, ParsesCommands) {
   EXPECT_EQ((*lines)[6].name, "a.png");
 }
 
+TEST(Script, HoldsKeys) {
+  const auto lines = parseScript("0 hold T\n9 lift T\n", "test");
+  ASSERT_TRUE(lines) << lines.error().message;
+  ASSERT_EQ(lines->size(), 2u);
+  for (const ScriptLine& line : *lines) EXPECT_EQ(line.input.code, GLFW_KEY_T);
+  EXPECT_TRUE((*lines)[0].input.down);
+  EXPECT_FALSE((*lines)[1].input.down);
+}
+
 TEST(Script, ErrorsNameLineAndExpectation) {
   const struct {
     const char* text;

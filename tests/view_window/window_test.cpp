@@ -34,7 +34,7 @@ TEST_F(ViewWindowTest, ScriptSwitchesViewsKeysAndSizes) {
   for (const char* view : {"final", "particles", "density", "speed", "depth", "normals", "thickness"})
     script += std::to_string(frame++) + " view " + view + "\n";
   const int first = frame;
-  for (const char* key : {"V", "F1", "F1", "Tab", "Tab", "T", "P", "O", "P", "R", "1", "2", "3", "4", "5", "6", "Home", "Left", "Up"})
+  for (const char* key : {"V", "F1", "F1", "Tab", "Tab", "L", "P", "O", "P", "R", "1", "2", "3", "4", "5", "6", "Home", "Left", "Up"})
     script += std::to_string(frame++) + " key " + key + "\n";
   script += std::to_string(frame) + " move 640 300\n" + std::to_string(frame) + " press left\n";
   script += std::to_string(frame + 1) + " move 700 340\n" + std::to_string(frame + 2) + " release left\n";
@@ -151,7 +151,7 @@ TEST_F(ViewWindowTest, NumbersCanBeTypedAndDragged) {
   const struct {
     const char* hands;
     double low, high;
-  } rows[] = {{"5 move 84 405\n5 press left\n5 release left\n5 press left\n5 release left\n14 type 8\n14 key Enter\n20 key T\n30 ", 8, 8},
+  } rows[] = {{"5 move 84 405\n5 press left\n5 release left\n5 press left\n5 release left\n14 type 8\n14 key Enter\n20 key L\n30 ", 8, 8},
               {"5 move 84 405\n5 press Ctrl+left\n5 release left\n10 type 0.25\n10 key Enter\n30 ", 0.25, 0.25},
               {"5 move 84 405\n5 press left\n7 move 134 405\n9 move 234 405\n11 release left\n30 ", 0.2, 50}};
   for (const auto& row : rows) {

@@ -33,6 +33,7 @@ struct Requests {
   std::optional<VkPresentModeKHR> mode;
   std::optional<size_t> device;  ///< index
   std::optional<DensityChange> density;
+  std::optional<EmitterTarget> emitter;
   bool restart = false, oneStep = false, save = false;
 };
 
@@ -67,6 +68,7 @@ void scenePanel(Board& board);
 void parameterPanel(Board& board);
 void figurePanel(Board& board);
 void bodyPanel(Board& board);
+void flowPanel(Board& board);
 void passPanel(Board& board);
 void memoryPanel(Board& board);
 void helpOverlay(Board& board);

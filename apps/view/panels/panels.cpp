@@ -100,6 +100,7 @@ void drawPanels(Board& board) {
     begin("right", layout.right);
     section(board, "Figures", figurePanel, true);
     if (!board.session.runner().fluid().bodies().empty()) section(board, "Bodies", bodyPanel, true);
+    if (hasFlows(board.session.scene())) section(board, "Flows", flowPanel, true);
     section(board, "Memory", memoryPanel, false);
     section(board, "Passes", passPanel, true);
     ImGui::End();
