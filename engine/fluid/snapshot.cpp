@@ -333,9 +333,9 @@ void addEmitters(FluidSnapshot& s, const Scene& before, const Scene& after, cons
   }
   const auto control = record<FluidControl>(s.control);
   FluidSetup setup;
-  addFlows(after, origin, setup);
+  if (!addFlows(after, origin, setup)) return;  // the fluid of that scene is refused as well
   std::vector<uint32_t> fresh;
-  for (size_t k = before.emitters.size(); k < setup.emitters.size(); ++k) {
+  for (size_t k = before.emitters.size(); k < after.emitters.size(); ++k) {
     EmitterRecord& emitter = setup.emitters[k];
     emitter.speed = emitter.rate = 0;
     emitter.doneHigh = control.timeHigh;

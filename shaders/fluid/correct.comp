@@ -99,7 +99,8 @@ float endSubstep(uint i, uint head) {
   vec3 whole = to - from;
   float far = sqrt(dot(whole, whole));
   if (far > limit) { displacement *= limit / far; to = insideWalls(from + whole * (limit / far)); }
-  displacement *= min(1.0, min(limit, max(params.speedLimit, 2.0 * control.emitterSpeed) * control.step) / max(sqrt(dot(displacement, displacement)), 1.0e-20));
+  float speedLimit = max(params.speedLimit, 2.0 * control.emitterSpeed);  // the host may have raised a flow
+  displacement *= min(1.0, min(limit, speedLimit * control.step) / max(sqrt(dot(displacement, displacement)), 1.0e-20));
   // not (to - from): a particle that starts outside the walls is moved inside without a change of
   // velocity
   vec3 v = control.phase == kPhaseAdvancing ? displacement / control.step : before;
