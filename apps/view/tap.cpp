@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "core/vector_math.hpp"
+#include "model/flow_fields.hpp"
 #include "shape/shape.hpp"
-#include "shared/flow_records.h"
 #include "view/scene_box.hpp"
 
 namespace rill::view {
@@ -58,9 +58,9 @@ Expected<void> Tap::open(Session& session, const Ray& ray, double flow) {
   const auto point = aimedAt(session, ray);
   if (!point) return point.error();
   if (!session.runner().tap()) {
-    if (session.scene().emitters.size() >= kMaxFlows)
+    if (session.scene().emitters.size() >= model::kMaxEmitters)
       return Error{ErrorKind::BadInput,
-                   "The scene has " + std::to_string(kMaxFlows) + " emitters, the most that there may be; a tap cannot be added"};
+                   "The scene has " + std::to_string(model::kMaxEmitters) + " emitters, the most that there may be; a tap cannot be added"};
     Emitter emitter;
     emitter.mouth = DiscMouth{.radius = radius(session)};
     emitter.flow = defaultFlow(session);
