@@ -83,6 +83,8 @@ constexpr Band kBands[] = {
     {"orifice", "level", 0.02, {0.02, 0.02, 0.02}, "%", ""},
     {"orifice", "jet, speed", 0.02, {0.06, 0.06, 0.06}, "%", "half of the hole is a few spacings wide"},
     {"orifice", "contraction", kNoAim, {0.14, 0.14, 0.14}, "%", ""},
+    {"weir", "head", kNoAim, {0.1, 0.1, 0.1}, "%", ""},
+    {"weir", "discharge", 0.1, {0.1, 0.1, 0.1}, "%", ""},
     {"elliptic-drop", "long axis, end", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "long axis, worst", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "short axis, end", kNoAim, {1.3, 6, 3}, "%", ""},

@@ -58,6 +58,7 @@ std::vector<Experiment> waterEntryExperiments();  ///< force on a wedge
 std::vector<Experiment> tapExperiments();         ///< level of a tank that a tap fills
 std::vector<Experiment> channelExperiments();     ///< laminar flow from an emitter to an open side
 std::vector<Experiment> orificeExperiments();     ///< jet from a tank that is kept full
+std::vector<Experiment> weirExperiments();        ///< discharge over a weir
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
 /// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.

@@ -37,7 +37,7 @@ std::vector<Experiment> experiments() {
   std::vector<Experiment> all;
   for (const auto& family : {columnExperiments(), tankExperiments(), sloshExperiments(), ellipticExperiments(), freeExperiments(),
                              jetExperiments(), liftExperiments(), bodyExperiments(), slipExperiments(), waterEntryExperiments(),
-                             obstacleExperiments(), tapExperiments(), channelExperiments(), orificeExperiments()})
+                             obstacleExperiments(), tapExperiments(), channelExperiments(), orificeExperiments(), weirExperiments()})
     all.insert(all.end(), family.begin(), family.end());
   return all;
 }
