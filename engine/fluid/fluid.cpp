@@ -50,8 +50,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   const ParticleSet& particles = *desc.particles;
   Scene scene = *desc.scene;
   if (particles.spacing > 0) scene.fluid.spacing = particles.spacing;
-  const uint64_t n = particles.positions.size(), saved = desc.snapshot ? desc.snapshot->id.size() : 0;
-  const uint64_t wanted = desc.capacity > 0 ? desc.capacity : std::max(capacityOf(scene, n), saved);
+  const uint64_t n = particles.positions.size(), wanted = desc.capacity > 0 ? desc.capacity : capacityOf(scene, n);
   const uint64_t capacity = std::max({wanted, n, uint64_t{bodyCount(scene) > 0 || removes(scene)}});
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);

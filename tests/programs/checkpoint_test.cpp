@@ -61,6 +61,14 @@ class CheckpointTest : public ::testing::Test {
     for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
     EXPECT_EQ(folder.names(), before) << "nothing is written";
   }
+  /// Refuses a checkpoint of which `change` damages the fluid.
+  template <class Change>
+  void expectDamageRefused(offline::Checkpoint damaged, const Change& change, const std::string& message) {
+    change(damaged.fluid);
+    const auto bytes = offline::encodeCheckpoint(damaged);
+    folder.write("damaged.rill", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    expectRefused({"--resume", "damaged.rill"}, {"--resume: \"damaged.rill\": the state does not fit the scene: " + message});
+  }
 
   TemporaryFolder folder;
 };
@@ -216,13 +224,7 @@ TEST_F(CheckpointTest, RejectsDamagedBodies) {
   const auto good = offline::loadCheckpoint(folder / "run.rill");
   ASSERT_TRUE(good);
   const size_t words = good->fluid.bodies.size() / 3;  // of a body
-  const auto refused = [&](const auto& change, const std::string& message) {
-    offline::Checkpoint damaged = *good;
-    change(damaged.fluid);
-    const auto bytes = offline::encodeCheckpoint(damaged);
-    folder.write("damaged.rill", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-    expectRefused({"--resume", "damaged.rill"}, {"--resume: \"damaged.rill\": the state does not fit the scene: " + message});
-  };
+  const auto refused = [&](const auto& change, const std::string& message) { expectDamageRefused(*good, change, message); };
   const auto nan = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
   refused([&](FluidSnapshot& s) { s.bodies[words + offsetof(PoseRecord, velocityY) / 4] = nan; },
           "bodies[1] has a motion that is not valid");
@@ -275,13 +277,7 @@ TEST_F(CheckpointTest, RejectsDamagedFlows) {
   figures({"--frames", "8", "--checkpoint", "run.rill"});
   const auto good = offline::loadCheckpoint(folder / "run.rill");
   ASSERT_TRUE(good);
-  const auto refused = [&](const auto& change, const std::string& message) {
-    offline::Checkpoint damaged = *good;
-    change(damaged.fluid);
-    const auto bytes = offline::encodeCheckpoint(damaged);
-    folder.write("damaged.rill", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-    expectRefused({"--resume", "damaged.rill"}, {"--resume: \"damaged.rill\": the state does not fit the scene: " + message});
-  };
+  const auto refused = [&](const auto& change, const std::string& message) { expectDamageRefused(*good, change, message); };
   const auto nan = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
   const size_t emitter = sizeof(FlowRecord) / 4;
   refused([&](FluidSnapshot& s) { s.flows.pop_back(); }, "flows has ");
@@ -289,7 +285,7 @@ TEST_F(CheckpointTest, RejectsDamagedFlows) {
   refused([&](FluidSnapshot& s) { s.flows[offsetof(FlowRecord, nextId) / 4] = 0; }, "the id of its next particle is 0");
   refused([&](FluidSnapshot& s) { s.flows[offsetof(FlowRecord, blockedHigh) / 4] = nan; }, "flows has a blocked time");
   refused([&](FluidSnapshot& s) { s.flows[emitter + offsetof(EmitterRecord, rate) / 4] = nan; }, "emitters[0] has a state");
-  refused([&](FluidSnapshot& s) { s.flows[emitter + offsetof(EmitterRecord, due) / 4] = 1000; }, "emitters[0] has a state");
+  refused([&](FluidSnapshot& s) { s.flows[emitter + offsetof(EmitterRecord, due) / 4] = 2000000; }, "emitters[0] has a state");
 }
 
 TEST_F(CheckpointTest, RejectsChangedParticleFile) {
