@@ -161,10 +161,10 @@ TEST_F(CaptureTest, EveryShippedSceneRuns) {
     const std::string name = file.lexically_relative(scenes).replace_extension().generic_string();
     std::vector<std::string> arguments = {name,           "--frames",         "2", "--no-images", "--quiet", "--require", "outside<1",
                                           "non_finite<1", "time_dropped_s<=0"};
-    const auto scene = loadScene(file);
-    ASSERT_TRUE(scene) << scene.error().message;
+    const auto read = loadScene(file);
+    ASSERT_TRUE(read) << read.error().message;
     // The viewer's tests open each at its full size. Without a fill there is no spacing for so many.
-    if (!scene->fill.empty()) arguments.insert(arguments.end(), {"--particles", "2000"});
+    if (!read->fill.empty()) arguments.insert(arguments.end(), {"--particles", "2000"});
     const Outcome outcome = capture(arguments, folder.string());
     EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.err;
   }
