@@ -15,7 +15,7 @@ TEST(SlabMeans, DepthOfLatticeIsItsHeight) {
   for (int i = 0; i < 10; ++i)
     for (int j = -2; j < 7; ++j) {
       cloud.position.push_back({(i + 0.5) * kCell, 2 + (j + 0.5) * kCell, 0});
-      cloud.velocity.push_back({i < 5 ? 1.0 : 3.0, j, 0});
+      cloud.velocity.push_back({i < 5 ? 1.0 : 3.0, double(j), 0});
     }
   const SlabMeans half = slabMeans(cloud, 0.5, 1, 2);
   EXPECT_EQ(half.particles, 5 * 7);
