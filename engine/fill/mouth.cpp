@@ -10,8 +10,6 @@
 namespace rill {
 namespace {
 
-Double3 unit(const Double3& v) { return along({}, 1 / length(v), v); }
-
 /// The axis that is most nearly across `v`.
 Double3 axisAcross(const Double3& v) {
   const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
@@ -21,7 +19,7 @@ Double3 axisAcross(const Double3& v) {
 /// Centers of the cells of a grid over a rectangle, those that `inside` takes; its arguments are -1 .. 1.
 template <class Inside>
 std::vector<Double3> gridOf(const RectMouth& mouth, double spacing, const Inside& inside) {
-  const Double3 across = unit(cross(mouth.normal, mouth.up)), up = unit(cross(across, mouth.normal));
+  const Double3 across = normalized(cross(mouth.normal, mouth.up)), up = normalized(cross(across, mouth.normal));
   const double size[2] = {mouth.size.first, mouth.size.second};
   int count[2];
   for (int i = 0; i < 2; ++i) {

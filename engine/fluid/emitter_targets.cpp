@@ -29,9 +29,9 @@ Double3 turnedWith(const Double3& v, const Double3& from, const Double3& to) {
 void change(EmitterRecord& r, const MouthSize& size, const EmitterTarget& target, const Double3& origin) {
   if (target.center) place(r, minus(*target.center, origin));
   if (target.normal) {
-    const Double3 before = {r.normalX, r.normalY, r.normalZ}, normal = along({}, 1 / length(*target.normal), *target.normal);
+    const Double3 before = {r.normalX, r.normalY, r.normalZ}, normal = normalized(*target.normal);
     const Double3 across = turnedWith({r.acrossX, r.acrossY, r.acrossZ}, before, normal);
-    const Double3 part = along(across, -dot(across, normal), normal), straight = along({}, 1 / length(part), part);
+    const Double3 part = along(across, -dot(across, normal), normal), straight = normalized(part);
     setAxes(r, normal, straight, cross(straight, normal));
   }
   setFlow(r, size, target.flow);

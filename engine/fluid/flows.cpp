@@ -11,10 +11,8 @@
 namespace rill {
 namespace {
 
-Double3 unit(const Double3& v) { return along(Double3{}, 1 / length(v), v); }
-
 /// A unit vector across a unit vector.
-Double3 anyAcross(const Double3& v) { return unit(cross(std::abs(v.y) < 0.9 ? Double3{0, 1, 0} : Double3{0, 0, 1}, v)); }
+Double3 anyAcross(const Double3& v) { return normalized(cross(std::abs(v.y) < 0.9 ? Double3{0, 1, 0} : Double3{0, 0, 1}, v)); }
 
 /// Points of a square lattice of pitch 1 inside a circle; `first`: of a point.
 std::vector<std::array<double, 2>> pointsInCircle(double radius, const std::array<double, 2>& first) {
@@ -92,8 +90,8 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing) {
   const auto* disc = std::get_if<DiscMouth>(&mouth);
   const auto* rect = std::get_if<RectMouth>(&mouth);
   lattice.center = disc ? disc->center : rect->center;
-  lattice.normal = unit(disc ? disc->normal : rect->normal);
-  lattice.across = disc ? anyAcross(lattice.normal) : unit(cross(lattice.normal, unit(rect->up)));
+  lattice.normal = normalized(disc ? disc->normal : rect->normal);
+  lattice.across = disc ? anyAcross(lattice.normal) : normalized(cross(lattice.normal, normalized(rect->up)));
   lattice.up = cross(lattice.across, lattice.normal);
   lattice.area = areaOf(mouth);
   lattice.half = disc ? std::pair{disc->radius, disc->radius} : std::pair{rect->size.first / 2, rect->size.second / 2};

@@ -71,7 +71,7 @@ enum class FluidPass : uint8_t {
 };
 constexpr size_t kFluidPasses = static_cast<size_t>(FluidPass::kCount);
 
-/// What starts a dispatch; shaders/shared/fluid_records.h says when.
+/// What starts a dispatch; shaders/shared/dispatch_commands.h says when.
 enum class Start : uint8_t {
   Always = kStartAlways,
   Predict = kStartPredict,
