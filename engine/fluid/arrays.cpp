@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shape/contact_points.hpp"
+#include "shared/region_records.h"
 #include "sort/dispatches.hpp"
 #include "sort/sort_types.h"
 
@@ -60,6 +61,7 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {MouthPoints, "mouthPoints", "points of emitters' mouths", Fluid, 8, [](const ArrayShape& s) { return s.mouthPoints; }},
       {Drains, "drains", "drains", Fluid, sizeof(DrainRecord), [](const ArrayShape& s) { return s.drains; }},
       {Flow, "flow", "ledger of particles", Fluid, sizeof(FlowRecord), [](const ArrayShape& s) { return uint64_t{s.removes}; }},
+      {Regions, "regions", "regions that sleep", Fluid, sizeof(RegionRecord), [](const ArrayShape& s) { return s.regions; }},
       {MeshWords, "meshWord", "fields of meshes", Fluid, kWord, [](const ArrayShape& s) { return s.meshWords; }},
       {Keyframes, "keyframes", "keyframes", Fluid, sizeof(KeyframeRecord), [](const ArrayShape& s) { return s.keyframes; }},
 
@@ -73,7 +75,7 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
        &FluidSnapshot::warmStart, "warm", true},
       {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
       {Multiplier, "multiplier", "multipliers", Fluid, kWord, perParticleIf<&ArrayShape::multipliers>, Account::Particles},
-      {ListHead, "listHead", "list heads", Fluid, kWord, [](const ArrayShape& s) { return s.lists || s.solids > 0 ? s.particles : 0; },
+      {ListHead, "listHead", "list heads", Fluid, kWord, [](const ArrayShape& s) { return s.lists || s.solids > 0 || s.regions > 0 ? s.particles : 0; },
        Account::Particles},
       {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
       {NearDisplaced, "nearDisplaced", "density that solids displace", Fluid, kVector, perParticleIfSolids, Account::Particles},
@@ -138,6 +140,7 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .emitters = setup.emitters.size(),
           .mouthPoints = setup.mouthPoints.size(),
           .drains = setup.drains.size(),
+          .regions = regionCount(p),
           .meshWords = setup.meshWords.size(),
           .keyframes = setup.keyframes.size() / kKeyframeNumbers,
           .lists = p.listCapacity > 0,

@@ -38,6 +38,7 @@ enum class FluidArray : uint8_t {
   MouthPoints,
   Drains,
   Flow,
+  Regions,
   MeshWords,
   Keyframes,
   // Per particle.
@@ -92,7 +93,7 @@ struct ArrayShape {
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
   uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
-           mouthPoints = 0, drains = 0, meshWords = 0, keyframes = 0;
+           mouthPoints = 0, drains = 0, regions = 0, meshWords = 0, keyframes = 0;
   bool lists = true, warm = false, multipliers = false, smooths = false, vorticity = false, loads = false, noSlipBodies = false,
        removes = false;
 };

@@ -18,6 +18,8 @@ uint64_t FluidImpl::fixedGroups(Extent extent) const {
       return divideUp(setup.contactPoints.size(), kFluidGroup);
     case Extent::PressureProbes:
       return setup.pressureProbes.size();
+    case Extent::Regions:
+      return divideUp(regionCount(setup.params), kFluidGroup);
     case Extent::Births:
       return std::max<uint64_t>(divideUp(std::min<uint64_t>(kMaxBornLayers * setup.mouthPoints.size(), capacity), kFluidGroup), 1);
     default:

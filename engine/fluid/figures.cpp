@@ -176,7 +176,7 @@ void FluidImpl::poll() const {
         s.momentum[a] = mass * velocity[a];
         s.centerOfMass[a] = sum[a] / n;
       }
-      if (setup.params.sleeps != 0) s.sleeping = control.sleep != kAwake ? control.count : 0;
+      if (setup.params.sleeps != 0) s.sleeping = control.sleep != kAwake ? control.count : sums.asleep;
       if (!bodyRecords.empty()) s.bodies = figuresOf(bodyRecords, origin, gravity);
       s.maxSpeed = m.speedMax;
       s.nonFinite = sums.nonFinite;

@@ -19,6 +19,7 @@ bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
+bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
 bool loadsAsleep(const FluidSetup& s) { return sleeps(s) && (loads(s) || probesPressure(s)); }
 bool separate(const FluidSetup& s) { return !s.mergesPasses; }
 bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1; }
@@ -30,7 +31,8 @@ constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no
     kEmits{emits, "no emitters"}, kDrainsFluid{drains, "no drains, and no open sides that remove"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
     kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"},
-    kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep};
+    kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep},
+    kRegions{regions, nullptr, &FluidSetup::whyNoRegions};
 
 using P = FluidPass;
 using E = Extent;
@@ -48,6 +50,10 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::PredictFirstAtSolids, "predict first at solids", "fluid/predict", E::NearSolids, {S::Predict}, {solids}},
 
     {P::Emit, "emit", "fluid/emit", E::Births, kRebuild, kEmits},
+    {P::RestMotion, "motion of regions", "fluid/rest_motion", E::Particles, kRebuild, kRegions},
+    {P::RestRegions, "regions at rest", "fluid/rest_regions", E::Regions, kRebuild, {regions}},
+    {P::RestWake, "wake regions", "fluid/rest_wake", E::Regions, kRebuild, {regions}},
+    {P::RestZones, "zones of regions", "fluid/rest_zones", E::Regions, kRebuild, {regions}},
     {P::Keys, "keys", "fluid/keys", E::Keys, kRebuild, kAlways, {.constant = {"REBUILDS", true}}},
     {P::Reorder, "reorder", "fluid/reorder", E::Particles, kRebuild},
     {P::BuildList, "build list", "fluid/build", E::Chunks, kRebuild, kAlways, kClusters},

@@ -23,6 +23,10 @@ enum class FluidPass : uint8_t {
   PredictFirstAtSolids,
   // A rebuild.
   Emit,
+  RestMotion,
+  RestRegions,
+  RestWake,
+  RestZones,
   Keys,
   Reorder,
   BuildList,
@@ -96,6 +100,7 @@ enum class Extent : uint8_t {
   Chunks,      ///< all particles, a dispatch for each buffer of the neighbor list
   Gather,      ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
   NearSolids,  ///< particles near solids
+  Regions,     ///< regions that fall asleep on their own
   Bodies,      ///< rigid bodies
   ContactPoints,   ///< their sample points
   PressureProbes,  ///< a workgroup each

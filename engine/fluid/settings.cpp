@@ -397,6 +397,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.gridSizeY = setup.grid.size[1];
   p.gridSizeZ = setup.grid.size[2];
   p.inverseCell = f(1 / setup.grid.cell);
+  addRegions(setup);
   return setup;
 }
 

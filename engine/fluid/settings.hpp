@@ -73,6 +73,7 @@ struct FluidSetup {
   double artificialViscosity = 0;                        ///< Pa s, of a fluid at rest
   std::string whyNoNoiseDamping;                         ///< where that is 0
   std::string whyNoSleep = "sleep is false";             ///< where the fluid never sleeps
+  std::string whyNoRegions = "sleep is false";           ///< where regions of it do not on their own
   std::string whyNoArtificialPressure = "tensile is 0";  ///< where there is no artificial pressure
   StabilityLimits limits;
   double head = 0;                        ///< m^2/s^2, of the start's column
@@ -117,8 +118,14 @@ bool measuresLoads(const Scene& scene);
 /// Whether particles come and go while the scene runs.
 bool removes(const Scene& scene);
 
+/// Regions that fall asleep on their own.
+inline uint64_t regionCount(const FluidParams& p) { return uint64_t{p.regionsX} * p.regionsY * p.regionsZ; }
+
+/// Cells that particles are sorted by: those of the grid, and behind them again where regions sleep, for the particles in these.
+inline uint64_t cellKeys(const FluidSetup& setup) { return (setup.params.regionsX != 0 ? 2 : 1) * setup.grid.cells(); }
+
 /// Keys of the sort: the cells, and one behind them for particles that are to be removed.
-inline uint64_t keyRange(const FluidSetup& setup) { return setup.grid.cells() + uint64_t{setup.removes}; }
+inline uint64_t keyRange(const FluidSetup& setup) { return cellKeys(setup) + uint64_t{setup.removes}; }
 
 /// Number of probes of pressure.
 size_t pressureProbeCount(const Scene& scene);

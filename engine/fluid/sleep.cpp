@@ -1,6 +1,7 @@
 #include "fluid/sleep.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -11,6 +12,7 @@
 namespace rill {
 namespace {
 
+constexpr uint32_t kLeastRegions = 8;  // along the longest axis: nothing sleeps within three of one awake
 constexpr double kRelease = 0.1;  // s after a body's release in which it need not have moved yet
 
 /// Seconds in which something moves.
@@ -61,6 +63,41 @@ void addSleep(const Scene& scene, double room, FluidSetup& setup) {
   const std::vector<Interval> wakes = merged(causes(scene));
   for (const Interval& wake : wakes) setup.gravity.insert(setup.gravity.end(), {f(wake.from), f(wake.until), 0.0f, 0.0f});
   setup.params.wakes = static_cast<uint32_t>(wakes.size());
+}
+
+void addRegions(FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  if (p.sleeps == 0) {
+    setup.whyNoRegions = setup.whyNoSleep;
+    return;
+  }
+  if (!setup.warm) {
+    setup.whyNoRegions = "without a warm start the forces on fluid at rest are not known";
+    return;
+  }
+  const uint32_t x = std::max(p.gridSizeX / kRegionCellsX, 1u), y = std::max(p.gridSizeY / kRegionCellsY, 1u),
+                 z = std::max(p.gridSizeZ / kRegionCellsZ, 1u);
+  if (std::max({x, y, z}) < kLeastRegions) {
+    setup.whyNoRegions = "the room is too small to be divided";
+    return;
+  }
+  p.regionsX = x, p.regionsY = y, p.regionsZ = z;
+}
+
+std::vector<uint32_t> zonesOf(const FluidSnapshot& s, const FluidParams& p) {
+  constexpr size_t kZone = offsetof(RegionRecord, zone) / 4;
+  std::vector<uint32_t> zones;
+  if (p.regionsX == 0 || s.cell.empty()) return zones;
+  zones.reserve(s.cell.size());
+  const uint32_t cells = p.gridSizeX * p.gridSizeY * p.gridSizeZ;
+  for (const uint32_t key : s.cell) {
+    const uint32_t cell = key % cells, row = cell / p.gridSizeX;
+    const uint32_t x = std::min(cell % p.gridSizeX / kRegionCellsX, p.regionsX - 1);
+    const uint32_t y = std::min(row % p.gridSizeY / kRegionCellsY, p.regionsY - 1);
+    const uint32_t z = std::min(row / p.gridSizeY / kRegionCellsZ, p.regionsZ - 1);
+    zones.push_back(s.regions[((z * p.regionsY + y) * p.regionsX + x) * kRegionWords + kZone]);
+  }
+  return zones;
 }
 
 }  // namespace rill

@@ -1,11 +1,24 @@
 #pragma once
 // What the host knows of when a fluid may sleep: docs/notes/sleep.md.
+#include <cstdint>
+#include <vector>
+
 #include "fluid/settings.hpp"
+#include "rill/snapshot.hpp"
+#include "shared/region_records.h"
 
 namespace rill {
+
+constexpr size_t kRegionWords = sizeof(RegionRecord) / 4;  ///< a region, of FluidSnapshot::regions
 
 /// Sets what shaders/fluid/sleep.glsl needs, behind the gravity schedule, if the scene asks for sleep. `room`: m, the longest extent of the
 /// fluid's room. Call it after the schedule is set.
 void addSleep(const Scene& scene, double room, FluidSetup& setup);
+
+/// Divides the grid into regions that fall asleep on their own, if the fluid may sleep and has room for it. Call it after the grid is set.
+void addRegions(FluidSetup& setup);
+
+/// The zone (region_records.h) of each particle, from the regions and cells of a snapshot. Empty where no regions sleep.
+std::vector<uint32_t> zonesOf(const FluidSnapshot& snapshot, const FluidParams& params);
 
 }  // namespace rill

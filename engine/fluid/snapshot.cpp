@@ -15,8 +15,10 @@
 #include "fluid/boundaries.hpp"
 #include "fluid/flows.hpp"
 #include "fluid/neighbor_list.hpp"
+#include "fluid/sleep.hpp"
 #include "shape/contact_points.hpp"
 #include "shape/records.hpp"
+#include "shared/region_records.h"
 
 namespace rill {
 namespace {
@@ -54,6 +56,7 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   if (!s.loads.empty())  // they may be of no use to the scene that goes on
     if (auto right = checkLength("loads", s.loads.size(), uint64_t{kLoadNumbers} * shape.solidCount); !right) return right;
   if (auto right = checkLength("flows", s.flows.size(), shape.flowWords); !right) return right;
+  if (auto right = checkLength("regions", s.regions.size(), kRegionWords * shape.regions); !right) return right;
   if (s.pressures.size() % kPressureProbeWords != 0)  // of other probes they are of no use
     return wrong("pressures has " + std::to_string(s.pressures.size()) + " entries; expected a multiple of " +
                  std::to_string(kPressureProbeWords));
@@ -163,6 +166,25 @@ Expected<void> checkFlows(const FluidSnapshot& s, const SnapshotShape& shape) {
   return {};
 }
 
+/// Regions have states and zones that there are, and the particles of those asleep come last.
+Expected<void> checkRegions(const FluidSnapshot& s, const SnapshotShape& shape) {
+  const auto control = record<FluidControl>(s.control);
+  if (shape.regions == 0)
+    return control.solved == control.count ? Expected<void>() : wrong("its substeps are not over all particles, but no regions sleep");
+  const std::span<const uint32_t> words(s.regions);
+  for (size_t k = 0; k < shape.regions; ++k) {
+    const auto r = record<RegionRecord>(words.subspan(k * kRegionWords, kRegionWords));
+    bool good = r.state <= kRegionAsleep && r.zone <= kZoneAsleep && r.woken <= 1 && r.moves <= 1;
+    for (const float number : {r.restShare, r.restForceX, r.restForceY, r.restForceZ}) good &= std::abs(number) < 1e15F;
+    if (!good) return wrong(elementPath("regions", k) + " has a state that is not valid");
+  }
+  const auto first = hasNeighbors(s) ? std::ranges::lower_bound(s.cell, static_cast<uint32_t>(shape.cells)) - s.cell.begin()
+                                     : std::ptrdiff_t{control.solved};
+  if (control.solved > control.count || first != std::ptrdiff_t{control.solved} || !(control.sleepStep >= 0 && control.sleepStep < 1e15F))
+    return wrong("its particles in regions asleep do not come last");
+  return {};
+}
+
 /// The first neighbor names an image if any does; images come in order.
 bool imagesInOrder(std::span<const uint32_t> neighbors) {
   uint32_t last = 0;
@@ -203,7 +225,7 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
   }
 
   if (auto right = checkLength("cells", s.cell.size(), alive ? s.id.size() : 0); !right) return right;
-  if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= shape.cells))
+  if (!std::is_sorted(s.cell.begin(), s.cell.end()) || (!s.cell.empty() && s.cell.back() >= (shape.regions > 0 ? 2 : 1) * shape.cells))
     return wrong("the particles are not sorted by their cells");
   return {};
 }
@@ -227,8 +249,8 @@ uint64_t flowWords(const FluidSetup& setup) {
 SnapshotShape snapshotShape(const FluidSetup& setup) {
   return {setup.params.capacity,      setup.params.solidCount,   setup.params.bodyCount,
           setup.params.contactPoints, setup.params.listCapacity, setup.params.emitterCount,
-          flowWords(setup),           setup.grid.cells(),        setup.params.initialPressureIterations,
-          setup.walls && !setup.thin, setup.movingSolids};
+          flowWords(setup),           regionCount(setup.params), setup.grid.cells(),
+          setup.params.initialPressureIterations, setup.walls && !setup.thin, setup.movingSolids};
 }
 
 bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).listState == kListValid; }
@@ -249,10 +271,15 @@ void forgetNeighbors(FluidSnapshot& s) {
 }
 
 void wake(FluidSnapshot& s) {
+  if (!s.regions.empty()) forgetNeighbors(s);  // those asleep have no lists
   auto control = record<FluidControl>(s.control);
   control.sleep = kAwake;
   control.restShare = 0;
+  const float ratio = control.sleepStep > 0 ? control.warmStep / control.sleepStep : 1;  // of the steps that multipliers are expressed for
+  for (size_t i = control.solved; i < s.warmStart.size(); ++i) s.warmStart[i] *= ratio * ratio;
+  control.solved = control.count;
   s.control = wordsOf(control);
+  std::ranges::fill(s.regions, 0);
 }
 
 void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
@@ -275,7 +302,7 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
   }
   s.sums = wordsOf(sums);
   auto control = record<FluidControl>(s.control);
-  control.count = static_cast<uint32_t>(s.id.size());
+  control.count = control.solved = static_cast<uint32_t>(s.id.size());
   s.control = wordsOf(control);
   if (s.flows.empty()) return;
   auto ledger = record<FlowRecord>(s.flows);
@@ -372,6 +399,7 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (auto right = checkBodies(snapshot); !right) return right;
   if (auto right = checkPressures(snapshot); !right) return right;
   if (auto right = checkFlows(snapshot, shape); !right) return right;
+  if (auto right = checkRegions(snapshot, shape); !right) return right;
   return checkNeighbors(snapshot, sums, shape);
 }
 

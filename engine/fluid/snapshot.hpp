@@ -16,6 +16,7 @@ struct SnapshotShape {
   uint32_t listCapacity = 0;
   uint32_t emitterCount = 0;
   uint64_t flowWords = 0;                  ///< of FluidSnapshot::flows
+  uint64_t regions = 0;                    ///< that fall asleep on their own
   uint64_t cells = 0;                      ///< of the grid
   uint32_t initialPressureIterations = 0;  ///< FluidParams::initialPressureIterations
   bool segments = false, movingSolids = false;
@@ -32,7 +33,7 @@ bool hasNeighbors(const FluidSnapshot& snapshot);
 
 /// The neighbors are due to be found anew before the next substep: after a change of what is near whom.
 void forgetNeighbors(FluidSnapshot& snapshot);
-/// A fluid that sleeps goes on in substeps: after a change that it does not see.
+/// A fluid that sleeps, or regions of it, go on in substeps: after a change that it does not see.
 void wake(FluidSnapshot& snapshot);
 /// Particles that were not there before, with the next ids. Neighbors are forgotten.
 void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::span<const Float3> velocities);

@@ -4,6 +4,7 @@
 
 #include "fluid/fluid_impl.hpp"
 #include "fluid/neighbor_list.hpp"
+#include "fluid/sleep.hpp"
 #include "fluid/snapshot.hpp"
 #include "graph/import_whole.hpp"
 #include "shape/records.hpp"
@@ -43,7 +44,8 @@ void SnapshotReader::declare(Graph& graph) {
   const uint32_t part = parts_[next_];
   if (part != kRecords) return read(part);
   for (FluidArray array : {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads, FluidArray::Bodies,
-                           FluidArray::Slips, FluidArray::PressureProbes, FluidArray::Flow, FluidArray::Emitters, FluidArray::Drains})
+                           FluidArray::Slips, FluidArray::PressureProbes, FluidArray::Flow, FluidArray::Emitters, FluidArray::Drains,
+                           FluidArray::Regions})
     read(slotOf(array));
 }
 
@@ -117,6 +119,7 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
     addFlows(data[8], fluid_.setup.emitters.size() * sizeof(EmitterRecord));
     addFlows(data[9], fluid_.setup.drains.size() * sizeof(DrainRecord));
   }
+  snapshot_.regions = records<uint32_t>(data[10], regionCount(fluid_.setup.params) * kRegionWords);
   if (!fluid_.setup.movingSolids) return;
   for (const SolidRecord& r : records<SolidRecord>(data[2], fluid_.setup.params.solidCount)) appendPose(r.pose, snapshot_.solids);
 }

@@ -10,6 +10,7 @@
 #include "fluid/flows.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "fluid/neighbor_list.hpp"
+#include "fluid/sleep.hpp"
 #include "fluid/snapshot.hpp"
 #include "shape/records.hpp"
 
@@ -98,7 +99,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   sums.bodySpeed = std::bit_cast<uint32_t>(setup.params.bodySpeed);
 
   FluidControl control{};
-  control.count = count;
+  control.count = control.solved = count;
   control.listState = kListNone;
   control.speed = fastest;
   control.nextPhase = settle ? kPhaseSettling : kPhaseAdvancing;
@@ -118,6 +119,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->add(slotOf(FluidArray::Id), id.size() * 4, bytesOf(id));
   staging_->clear(slotOf(FluidArray::Warm));
   staging_->clear(slotOf(FluidArray::WarmAcceleration));
+  staging_->clear(slotOf(FluidArray::Regions));
   ledger = firstLedger(count, sums.nonFinite);
   stageFlows();
 }
@@ -180,6 +182,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(slotOf(FluidArray::PressureProbes), probes.size() * sizeof(PressureProbeRecord), bytesOf(probes));
   if (setup.removes) resumeFlows(s);
   stageFlows();
+  staging_->add(slotOf(FluidArray::Regions), s.regions.data(), s.regions.size() * 4);
   takeLoads(std::as_bytes(std::span(s.loads)));
   if (setup.loads && !s.loads.empty())
     staging_->add(slotOf(FluidArray::SolidLoads), s.loads.data(), s.loads.size() * sizeof s.loads[0]);
@@ -200,7 +203,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     staging_->add(slotOf(FluidArray::NearSolids), bytes, bytesOf(std::move(near)));
   }
   if (rowOf(FluidArray::ListHead).length(shape) > 0) {
-    std::vector<uint32_t> heads = layOutHeads(s);
+    std::vector<uint32_t> heads = layOutHeads(s, zonesOf(s, setup.params));
     const uint64_t bytes = heads.size() * 4;
     staging_->add(slotOf(FluidArray::ListHead), bytes, bytesOf(std::move(heads)));
   }

@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied without byte swapping");
 
 constexpr std::string_view kMagic = "RILLCKPT";
-constexpr uint32_t kFormat = 14;
+constexpr uint32_t kFormat = 15;
 constexpr uint64_t kHeaderBytes = 24, kTableEntryBytes = 16, kChecksumBytes = 8;
 
 /// Calls visit(section name, array) for the arrays of the state in the order of the file.
@@ -38,6 +38,7 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("loads", s.loads);
   visit("pressure", s.pressures);
   visit("flows", s.flows);
+  visit("regions", s.regions);
   forEachSaved([&](const ArrayRow& row, auto member) { visit(row.savedName, s.*member); });
   visit("nearsol", s.nearSolids);
   visit("nbrcount", s.neighborCount);

@@ -34,7 +34,9 @@ void main() {
   control.solidSpeed = max(params.solidSpeed, push.drivenSpeed);
   control.pulls = push.pulls;
   sleepThrough(push.drives > 0u || push.pulls > 0u);
+  vec3 gravityBefore = vec3(control.gravityX, control.gravityY, control.gravityZ);
   gravityAt();
+  if (vec3(control.gravityX, control.gravityY, control.gravityZ) != gravityBefore) control.wakesAll = 1u;
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
   control.speed = uintBitsToFloat(sums.speedMax);
   // fluid beside an open mouth is in motion, but the initial pressure is that of fluid at rest
@@ -53,7 +55,7 @@ void main() {
     float nextTravel = control.travel + (fastest + acceleration * control.nextStep) * control.nextStep;
     if (control.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && control.listState == kListValid)
       control.listState = kListDue;
-    if (control.emissionWait <= 0.0 && control.listState == kListValid) control.listState = kListDue;
+    if ((control.emissionWait <= 0.0 || regionsAreDue()) && control.listState == kListValid) control.listState = kListDue;
   }
   control.running = going && control.listState == kListValid ? 1u : 0u;
   control.again = 0u;

@@ -38,11 +38,12 @@ layout(std430, binding = 15) writeonly buffer NearSolidsBlock { uvec4 nearSolids
 layout(std430, binding = 16) readonly buffer SolidBlock { SolidRecord solids[]; };
 #include "fluid/near_solids.glsl"
 #include "fluid/cull_solids.glsl"
+#include "shared/region_records.h"
 
 const uint kNone = 0xffffffffu;
 
-// Lists the particle and the solids near it; whether there are any.
-bool listNear(uint i, vec3 x) {
+// Lists the particle, if it is `listed`, and the solids near it; whether there are any.
+bool listNear(uint i, vec3 x, bool isListed) {
   if (!isActive(x)) return false;
   uvec3 listed = kNothingNear;
   uint found = 0u;
@@ -59,6 +60,7 @@ bool listNear(uint i, vec3 x) {
     } LOOP_END(mask != 0u);
   }
   if (found == 0u) return false;
+  if (!isListed) return true;
   if (found > kListedSolids) addSolid(listed, 0u, kAllSolids);
   nearSolids[atomicAdd(sums.nearSolids, 1u)] = uvec4(i, listed);
   return true;
@@ -188,10 +190,12 @@ void main() {
   at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
   place = x;
   self = i;
+  uint zone = uint(max(-predicted.w, 0.0));  // of reorder.comp
+  bool asleep = REGIONS && zone != kZoneMoves;
   vec3 scaled = scaledPosition(x);
   addToColumns(inRange, x);
   Images images = imagesNear(x, params.reach);
-  bool more = inRange && isActive(x), nearWall = more && images.near != uvec3(1u);
+  bool more = inRange && isActive(x) && (!REGIONS || zone <= kZoneWatched), nearWall = more && images.near != uvec3(1u);
   listable = !(THIN && nearWall);  // a segment cannot name the images of thin domains: the particle walks the grid
   bool segments = LIST_CAPACITY != 0u && listable && nearWall;
   LOOP_WHILE (subgroupAny(more)) {
@@ -203,8 +207,12 @@ void main() {
     if (segments && more) endSegment(image);
     more = segments && advance(images) && more;
   } LOOP_END(subgroupAny(more));
+  if (REGIONS) {
+    uint sleeping = subgroupAdd(uint(inRange && asleep));
+    if (subgroupElect()) atomicAdd(sums.asleep, sleeping);
+  }
   if (!inRange) return;
-  cell[i] = cellKey(cellOf(x));
+  cell[i] = cellKey(cellOf(x)) + (asleep && zone == kZoneAsleep ? params.gridSizeX * params.gridSizeY * params.gridSizeZ : 0u);
   uint head = 0u;
   if (LIST_CAPACITY != 0u) {
     uint all = stored + holds;
@@ -225,10 +233,12 @@ void main() {
     from = insideWalls(from + apart);
   }
   position[i] = vec4(from, 0.0);
-  prediction[i] = vec4(x, predicted.w);
+  bool nearSolid = SOLIDS && listNear(i, x, !asleep);
+  prediction[i] = vec4(x, asleep ? float(nearSolid) : predicted.w);  // asleep: see rest_motion.comp
   velocity[i] = vec4(moving.xyz, 1.0);
   if (WARM) warm[i] = moving.w;
   id[i] = own;
-  if (SOLIDS && listNear(i, x)) head |= kNearSolidsBit;
-  if (LIST_CAPACITY != 0u || SOLIDS) listHead[i] = head;
+  if (nearSolid && !asleep) head |= kNearSolidsBit;
+  if (asleep) head |= kAsleepBit;
+  if (LIST_CAPACITY != 0u || SOLIDS || REGIONS) listHead[i] = head;
 }

@@ -30,12 +30,13 @@ void visit(vec4 particle, vec4 companion) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
+  bool inRange = i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = curlAt(i);
-  visitNeighbors(i, headOf(i, inRange), local, inRange);
-  if (!inRange) return;
+  uint head = headOf(i, inRange);
+  visitNeighbors(i, head, local, inRange);
+  if (!inRange || sleeps(head)) return;
   rise *= params.gradientScale;
   // Below a thousandth of the spin a smoothing length its change is noise.
   vec3 direction = rise / (length(rise) + 0.001 * own.w * params.inverseSupport + 1.0e-20);

@@ -51,7 +51,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
   if ((first ? control.running : control.again) == 0u) return first ? kNoSubstep : kKeepCommands;
 
   float errorMax = uintBitsToFloat(sums.errorMax);
-  float error = (float(sums.errorHigh) * 4294967296.0 + float(sums.errorLow)) * kErrorUnit / float(max(control.count, 1u));
+  float error = (float(sums.errorHigh) * 4294967296.0 + float(sums.errorLow)) * kErrorUnit / float(max(control.solved, 1u));
   bool converged = params.tolerance > 0.0 && error <= params.tolerance && errorMax <= 100.0 * params.tolerance;
   bool again = iteration + 1u < params.iterations && !converged;
   control.iterations += 1u;
@@ -91,6 +91,8 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     float acceleration = length(gravity);
     control.desiredStep = plannedStep(tolerableStep(error), cflStep(acceleration, control.head));
     accountRest(error, gravity != gravityBefore);
+    if (gravity != gravityBefore) control.wakesAll = 1u;
+    control.regionTime += control.step;
     sums.motionLow = 0u;
     sums.motionHigh = 0u;
     if (control.timeLeft < 1.0e-4 * control.step) control.timeLeft = 0.0;
@@ -101,7 +103,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.nextStep = control.timeLeft > 0.0 ? fittedStep(control.timeLeft, control.desiredStep) : control.desiredStep;
     float nextTravel = control.travel + (control.speed + solidSpeed + acceleration * control.nextStep) * control.nextStep;
     control.emissionWait -= control.step;
-    if (nextTravel > params.travelLimit || control.emissionWait <= 0.0) control.listState = kListDue;
+    if (nextTravel > params.travelLimit || control.emissionWait <= 0.0 || regionsAreDue()) control.listState = kListDue;
   }
 
   if (first && control.noiseDamping > 0.0) control.executedNoiseDampings += 1u;

@@ -8,5 +8,5 @@ layout(std430, binding = 3) writeonly buffer VelocityBlock { vec4 velocity[]; };
 
 void main() {
   uint i = flatInvocation();
-  if (i < control.count) velocity[i] = sweepFrom[i];
+  if (i < control.solved) velocity[i] = sweepFrom[i];
 }

@@ -67,6 +67,12 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   return all(lessThanEqual(abs(difference - planned), rounding)) ? planned : difference;
 }
 
+// Of a particle that sleeps: what would move it, for rest_motion.comp.
+void storeAcceleration(uint i) {
+  warmDisplacement *= unit * params.gradientScale;
+  if (WARM) warmAcceleration[i] = vec4(warmDisplacement / (control.warmStep * control.warmStep), 0.0);
+}
+
 // Speed of the particle (m/s), whose substep ends here.
 float endSubstep(uint i, uint head) {
   correction *= unit * params.gradientScale;
@@ -139,7 +145,7 @@ void addMotion(uint add) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
+  bool inRange = i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
@@ -147,7 +153,9 @@ void main() {
   uint head = headOf(i, inRange);
   visitNeighbors(i, head, local, inRange);
   // No lane leaves before the maximum: those that are left need not come together again.
-  float speed = inRange ? endSubstep(i, head) : 0.0;
+  bool moves = inRange && !sleeps(head);
+  float speed = moves ? endSubstep(i, head) : 0.0;
+  if (inRange && !moves) storeAcceleration(i);
   float fastest = subgroupMax(speed);
   float motion = SLEEP ? subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion)) : 0.0;
   if (!subgroupElect()) return;

@@ -30,7 +30,7 @@ void visit(vec4 particle, vec4 companion) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
+  bool inRange = i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = velocityAt(i).xyz;

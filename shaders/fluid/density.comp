@@ -47,6 +47,21 @@ void reflectSums(vec3 signs) { gradientSum *= signs; }
 #define IMAGES
 #include "fluid/neighbors.glsl"
 
+float unit = kMultiplierScale / params.inverseRestGradient;  // of multipliers as halves
+
+void storeWork(uint i, float change, float warmNext) {
+  work[i] = uvec4(floatBitsToUint(here), packHalf2x16(clamp(vec2(change, warmNext) * unit, -60000.0, 60000.0)));
+}
+
+// Asleep: the multiplier stays, in the terms of the next step.
+void keepMultiplier(uint i) {
+  float ratio = push.iteration == 0u ? control.nextStep / control.warmStep : 1.0;
+  float kept = WARM ? warm[i] * ratio * ratio : 0.0;
+  if (WARM) warm[i] = kept;
+  if (MULTIPLIERS) multiplier[i] = kept;
+  storeWork(i, 0.0, kept);
+}
+
 // Compression of the particle, from 0 to 1; its multiplier is updated.
 float updateMultiplier(uint i, uint head) {
   rho = densityScale() * (rho + kernelShape(0.0));
@@ -87,8 +102,7 @@ float updateMultiplier(uint i, uint head) {
   }
   if (MULTIPLIERS) multiplier[i] = after;
 
-  float unit = kMultiplierScale / params.inverseRestGradient;
-  work[i] = uvec4(floatBitsToUint(here), packHalf2x16(clamp(vec2(after - before, warmNext) * unit, -60000.0, 60000.0)));
+  storeWork(i, after - before, warmNext);
   return isWithin(vec3(constraint), 1.0e30) ? clamp(constraint, 0.0, 1.0) : 0.0;
 }
 
@@ -127,13 +141,15 @@ uint startsAfterLast(uint mine) {
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool going = runs(), inRange = going && i < min(push.last, control.count);
+  bool going = runs(), inRange = going && i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   uint head = headOf(i, inRange);
-  visitNeighbors(i, head, local, inRange);
+  bool moves = inRange && !sleeps(head);
+  visitNeighbors(i, moves ? head : 0u, local, moves);
   // No lane leaves before the sums: those that are left need not come together again.
-  float compression = inRange ? updateMultiplier(i, head) : 0.0;
+  float compression = moves ? updateMultiplier(i, head) : 0.0;
+  if (inRange && !moves) keepMultiplier(i);
   float sum = subgroupAdd(compression);  // of 64 lanes, in kErrorUnit, it fits into 32 bits
   float most = subgroupMax(compression);
 #ifdef MERGED

@@ -5,7 +5,7 @@
 #define RILL_DENSITY_COMMANDS_GLSL
 void setDensityCommands() {
   bool walks = someWalk(sums.overflow);
-  uvec3 groups = groupsFor(max(min(control.count, params.chunkParticles), 1u), kFluidGroup);
+  uvec3 groups = groupsFor(max(min(control.solved, params.chunkParticles), 1u), kFluidGroup);
   // Of the variant that reads lists alone, and of the one that walks the grid.
   for (uint k = gl_LocalInvocationID.x; k < 2u; k += gl_WorkGroupSize.x) {
     uvec3 own = walks == (k == 1u) ? groups : uvec3(0u);

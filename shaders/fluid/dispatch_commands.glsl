@@ -25,10 +25,11 @@ bool someWalk(uint overflow) { return params.listCapacity == 0u || overflow > 0u
 // is over and started by, as engine/fluid/dispatch_commands.hpp packs them; `commands` is what the device
 // dispatches. Of the commands, every `lanes`-th from `lane` on.
 void switchCommands(uint on, uint lane, uint lanes) {
-  uint count = control.count;
+  const uint whole = 1u << kStartRebuild | 1u << kStartFigures | 1u << kStartFallAsleep;  // also over particles in regions asleep
   bool walks = someWalk(sums.overflow);
   for (uint k = lane; k < params.commandCount; k += lanes) {
     uvec3 shape = uvec3(shapes[3u * k], shapes[3u * k + 1u], shapes[3u * k + 2u]);
+    uint start = shape.z >> 4u, count = (whole >> start & 1u) != 0u ? control.count : control.solved;
     uvec3 groups = uvec3(shape.xy, 1u);
     switch (shape.z & 15u) {
       case kOverParticles: groups = groupsFor(max(count, 1u), shape.x); break;  // the first one starts sums anew
@@ -37,7 +38,7 @@ void switchCommands(uint on, uint lane, uint lanes) {
       case kOverGrid: groups = groupsFor(walks ? min(count, params.chunkParticles) : 0u, shape.x); break;
       case kOverNearSolids: groups = groupsFor(sums.nearSolids, shape.x); break;
     }
-    if ((on >> (shape.z >> 4u) & 1u) == 0u) groups = uvec3(0u);
+    if ((on >> start & 1u) == 0u) groups = uvec3(0u);
     commands[3u * k] = groups.x;
     commands[3u * k + 1u] = groups.y;
     commands[3u * k + 2u] = groups.z;

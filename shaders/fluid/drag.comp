@@ -7,5 +7,5 @@ layout(std430, binding = 2) buffer VelocityBlock { vec4 velocity[]; };
 
 void main() {
   uint i = flatInvocation();
-  if (i < control.count) velocity[i].xyz *= exp(-params.drag * control.step);
+  if (i < control.solved) velocity[i].xyz *= exp(-params.drag * control.step);
 }

@@ -32,7 +32,7 @@ bool hasLeft(vec3 x) {
 
 void main() {
   uint i = flatInvocation();
-  if (i >= control.count || control.phase != kPhaseAdvancing) return;
+  if (i >= control.solved || control.phase != kPhaseAdvancing) return;
   vec3 x = position[i].xyz;
   if (!isActive(x)) return;
   uint drain = 0u;

@@ -36,7 +36,12 @@ void main() {
   control.builds += 1u;
   control.executedBuilds += 1u;
   control.running = control.timeLeft > 0.0 ? 1u : 0u;
-  if (REMOVES) control.count = cellStart[params.gridSizeX * params.gridSizeY * params.gridSizeZ];  // inactive particles come last
+  uint cells = params.gridSizeX * params.gridSizeY * params.gridSizeZ;
+  if (REMOVES) control.count = cellStart[(REGIONS ? 2u : 1u) * cells];  // inactive particles come last
+  control.solved = REGIONS ? cellStart[cells] : control.count;
+  control.sleepStep = control.warmStep;
+  control.regionTime = 0.0;
+  control.wakesAll = 0u;
   FluidSums s = sums;
   followColumn(columnHead(s));
   switchCommands(kNoSubstep);  // the sort's own, too: another rebuild may be recorded behind this one

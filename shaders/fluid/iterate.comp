@@ -38,14 +38,15 @@ void reflectSums(vec3 signs) { moved *= signs; }
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
+  bool inRange = i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
   own = multiplier(particle);
   uint head = headOf(i, inRange);
-  visitNeighbors(i, head, local, inRange);
-  if (!inRange) return;
+  bool moves = inRange && !sleeps(head);
+  visitNeighbors(i, moves ? head : 0u, local, moves);
+  if (!moves) return;
   moved *= unit * params.gradientScale;
   if (SOLIDS) {
     vec3 excess = (head & kNearSolidsBit) != 0u ? nearExcessAt(2u * i).xyz : vec3(0.0);

@@ -42,7 +42,7 @@ vec3 displacementOut(uint e, float phase, vec3 x) {
 
 void main() {
   uint i = flatInvocation();
-  if (i >= control.count || control.phase != kPhaseAdvancing) return;
+  if (i >= control.solved || control.phase != kPhaseAdvancing) return;
   vec3 x = position[i].xyz, v = velocity[i].xyz;
   if (!isActive(x)) return;
   bool pushed = false;

@@ -49,7 +49,7 @@ void reflectSums(vec3 signs) {
 void main() {
   uint n = clusterInvocation();
   uint i = nearSolidsAt(min(n, max(sums.nearSolids, 1u) - 1u)).x;
-  bool inRange = n < sums.nearSolids && i >= push.first && i < min(push.last, control.count);
+  bool inRange = n < sums.nearSolids && i >= push.first && i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);

@@ -13,14 +13,16 @@ layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; }
 layout(std430, binding = 7) readonly buffer NearSolidsBlock { uvec4 nearSolids[]; };  // NearSolidRecord
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 READ_UINT(9, meshWord)
+READ_UINT(10, listHead)
 #include "fluid/outside.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 void main() {
   uint i = flatInvocation();
-  if (i >= (NEAR_SOLIDS ? sums.nearSolids : control.count)) return;
+  if (i >= (NEAR_SOLIDS ? sums.nearSolids : control.solved)) return;
   uvec3 near = NEAR_SOLIDS ? nearSolids[i].yzw : kNothingNear;
   if (NEAR_SOLIDS) i = nearSolids[i].x;
+  if (REGIONS && (listHeadAt(i) & kAsleepBit) != 0u) return;
   vec3 x = positionAt(i).xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;

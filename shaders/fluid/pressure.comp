@@ -59,7 +59,7 @@ Moments around(vec3 x) {
   for (uint part = 0u; part < 18u; ++part) {
     uint begin, end;
     rowRange(scaled.x, scaled.x, row, gaps, params.reach, part / 2u, part % 2u, begin, end);
-    for (uint j = begin + gl_LocalInvocationID.x; j < min(end, control.count); j += gl_WorkGroupSize.x) add(m, j, x);
+    for (uint j = begin + gl_LocalInvocationID.x; j < min(end, control.solved); j += gl_WorkGroupSize.x) add(m, j, x);
   }
   return m;
 }

@@ -2,34 +2,11 @@
 // `gravityChanges` and a `control` to write.
 #ifndef RILL_SLEEP_GLSL
 #define RILL_SLEEP_GLSL
-#include "fluid/stability.glsl"
+#include "fluid/rest_limits.glsl"
 #include "fluid/time.glsl"
 
-// Of the speed of a fall through a spacing: root mean square, and of the fastest particle.
-const float kRestSpeed = 0.005;
-const float kRestMaxSpeed = 0.15;
 const float kRestBodies = 2.0;         // times the limit of the root mean square: the fastest body
-const float kRestDisplacement = 0.05;  // spacings that the slowest motion may still go
-const float kRestTimes = 20.0;         // times of a fall through a spacing, at least
 const float kRestPressure = 0.5;       // share of the mean compression by which that of a substep may differ
-
-// What is at rest: speeds up to `speed` (m/s, root mean square), for `time` (s).
-struct RestLimits {
-  float speed, time;
-};
-
-// From the slowest motion that the fluid can have: its longest wave, and how viscosity lets it sink. See docs/notes/sleep.md.
-RestLimits restLimits() {
-  float gravity = params.layerHead / params.spacing, head;
-  FluidSums s = sums;
-  head = columnHead(s);
-  float height = max((head > 0.0 ? head : control.head) / gravity, params.spacing);
-  float waveNumber = 3.14159265 / params.sleepLength, layers = waveNumber * height;
-  float wave = inversesqrt(gravity * waveNumber * layers / (1.0 + layers));  // s/rad
-  float viscous = 2.0 * params.kinematicViscosity * waveNumber / gravity * max(1.0, 1.5 / (layers * layers * layers));
-  return RestLimits(min(kRestSpeed * sqrt(params.layerHead), kRestDisplacement * params.spacing / max(wave, viscous)),
-                    max(kRestTimes * params.spacing * inversesqrt(params.layerHead), 3.14159265 * wave));
-}
 
 // Mean square of the speeds after the last correction, m^2/s^2.
 float meanMotion() {
@@ -55,11 +32,16 @@ void accountRest(float error, bool gravityChanged) {
   if (params.sleeps == 0u) return;
   RestLimits limits = restLimits();
   float fastest = kRestMaxSpeed * sqrt(params.layerHead), compression = error / (control.step * control.step);
-  bool melts = params.inverseMeltingTime * control.timeHigh < 1.0 && params.inverseMeltingTime > 0.0;
   bool steady = params.tolerance <= 0.0 || abs(compression - control.errorRate) <= kRestPressure * control.errorRate;
   bool slow = meanMotion() <= limits.speed * limits.speed && control.speed <= fastest && control.bodySpeed <= kRestBodies * limits.speed;
-  bool rests = slow && steady && !melts && !gravityChanged && quietTime() > 0.0;
+  bool still = control.solved == 0u || (slow && steady);  // else there is nothing to be steady
+  bool rests = still && !melts() && !gravityChanged && quietTime() > 0.0;
   control.restShare = rests ? control.restShare + control.step / limits.time : 0.0;
+}
+
+// Whether it is time to look which regions rest: at least as often as a fall through a spacing takes.
+bool regionsAreDue() {
+  return params.regionsX != 0u && (control.wakesAll != 0u || control.regionTime > params.spacing * inversesqrt(params.layerHead));
 }
 
 void wake() {

@@ -28,15 +28,17 @@ void reflectSums(vec3 signs) {
 #define IMAGES
 #include "fluid/neighbors.glsl"
 
-// Gathers `own` and `difference` of the invocation's particle i; false where it has none.
+// Gathers `own` and `difference` of the invocation's particle i; false where it has none. A difference of 0 for one that sleeps.
 bool gatherDifference(out uint i) {
   uint local = clusterInvocation();
   i = push.first + local;
-  bool inRange = i < min(push.last, control.count);
+  bool inRange = i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   here = particleAt(i).xyz;
   own = sweepFromAt(i);
-  visitNeighbors(i, headOf(i, inRange), local, inRange);
+  uint head = headOf(i, inRange);
+  bool moves = inRange && !sleeps(head);
+  visitNeighbors(i, moves ? head : 0u, local, moves);
   difference *= params.valueScale;
   return inRange;
 }

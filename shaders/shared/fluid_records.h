@@ -117,6 +117,7 @@ struct FluidParams {
   uint wakes;             // times in which something moves that is known beforehand; behind the gravity schedule
   float sleepLength;      // m, the longest wave that the fluid can have, over 2
   float kinematicViscosity;  // m^2/s
+  uint regionsX, regionsY, regionsZ;  // that fall asleep on their own, a dimension; 0: none do
 };
 
 // Phases of the solver; the two before time begins need no step in time.
@@ -179,6 +180,10 @@ struct FluidControl {
   float restShare;     // share of the time at rest after which the fluid may fall asleep; 0 in motion
   float timeAsleep;    // s of the advance
   uint executedFallsAsleep;  // since the start, as executedSubsteps
+  uint solved;         // particles that substeps are over, the first of `count`; the others are in regions asleep
+  float sleepStep;     // s, the step that the multipliers of the others are expressed for
+  float regionTime;    // s since regions were looked at
+  uint wakesAll;       // 1: gravity has changed since
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -198,6 +203,7 @@ struct FluidSums {
   uint columnHighX, columnHighY, columnHighZ;
   uint columnSumLowX, columnSumLowY, columnSumLowZ;
   uint columnSumHighX, columnSumHighY, columnSumHighZ;
+  uint asleep;               // particles in regions that sleep, at the last build
   uint motionLow, motionHigh;  // where fluid may sleep: 64-bit sum of squared speeds over gravity times spacing, in kMotionUnit
 };
 RILL_CONST float kMotionUnit = 1.0f / 4194304.0f;

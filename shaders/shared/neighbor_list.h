@@ -23,12 +23,13 @@ RILL_CONST uint kMaxSegmentGroups = (1u << kSegmentGroupBits) - 1u;
 RILL_CONST uint kSegmentImages = 27u;  // images that a segment can name
 
 // List head: the number of entries, kUnlisted if they are more than the list holds; whether a solid is near; whether the list is made of
-// segments; and the distance (particles) from which the first step starts.
+// segments; whether the particle sleeps; and the distance (particles) from which the first step starts.
 RILL_CONST uint kUnlisted = 1023u;
 RILL_CONST uint kNearSolidsBit = 1024u;
 RILL_CONST uint kSegmentsBit = 2048u;
-RILL_CONST uint kHeadDistanceShift = 12u;
-RILL_CONST uint kMaxHeadDistance = (1u << 20) - 1u;
+RILL_CONST uint kAsleepBit = 4096u;
+RILL_CONST uint kHeadDistanceShift = 13u;
+RILL_CONST uint kMaxHeadDistance = (1u << 19) - 1u;
 
 RILL_RECORDS_END
 #endif

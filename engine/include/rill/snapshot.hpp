@@ -48,6 +48,8 @@ struct FluidSnapshot {
   /// FlowRecord (flow_records.h), then EmitterRecord of each emitter and DrainRecord of each drain, word by word; empty if no particles
   /// come or go.
   std::vector<uint32_t> flows = {};
+  /// RegionRecord (region_records.h) of each region of the grid that may fall asleep on its own, word by word; empty if none may.
+  std::vector<uint32_t> regions = {};
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Warm start; empty without one.
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
@@ -60,7 +62,7 @@ struct FluidSnapshot {
   /// Concatenated by particle; without those of particles that exceed the capacity. Near walls an entry kImageOfNeighbors + k comes before
   /// those whose image k (shaders/fluid/images.glsl) is near; 0 is the neighbors themselves.
   std::vector<uint32_t> neighbors = {};
-  std::vector<uint32_t> cell = {};  ///< cell of each particle when they were sorted
+  std::vector<uint32_t> cell = {};  ///< cell of each particle when they were sorted, plus their number in a region asleep
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
 };
 
