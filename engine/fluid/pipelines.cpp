@@ -48,7 +48,6 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"REMOVES", setup.removes},
           {"OUTFLOW", setup.params.outflowLevel < kNoWall},
           {"FORCES", hasForces(setup)},
-          {"SLEEP", p.sleeps != 0},
           {"REGIONS", p.regionsX != 0},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

@@ -83,6 +83,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   std::vector<uint32_t> id(count);
   FluidSums sums{};
   float fastest = 0;
+  double squares = 0;
   for (uint32_t i = 0; i < count; ++i) {
     Float3 &x = positions[i], &v = velocities[i];
     const float speed = speedOf(v);
@@ -92,7 +93,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
       x = {kInactivePosition, kInactivePosition, kInactivePosition};
       v = {};
     }
-    if (good) fastest = std::max(fastest, speed);
+    if (good) fastest = std::max(fastest, speed), squares += double{speed} * speed;
     id[i] = i;
   }
   sums.speedMax = std::bit_cast<uint32_t>(fastest);
@@ -102,6 +103,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   control.count = control.solved = count;
   control.listState = kListNone;
   control.speed = fastest;
+  control.flowSpeed = std::min(fastest, kFlowTimes * static_cast<float>(std::sqrt(squares / std::max(count, 1u))));
   control.nextPhase = settle ? kPhaseSettling : kPhaseAdvancing;
   control.phaseLeft = settle ? kSettleSubsteps : 0;
   control.head = static_cast<float>(setup.head);

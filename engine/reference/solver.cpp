@@ -45,7 +45,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   rejected_.assign(count, glm::dvec3(0));
   gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
-    if (finite(v)) fastest_ = std::max(fastest_, glm::length(v));
+    if (finite(v)) addSpeed(glm::length(v));
   walls_.outflowAxis = settings.outflowAxis;
   walls_.outflowHigh = settings.outflowHigh;
   walls_.outflowLevel = settings.outflowLevel;
@@ -148,9 +148,15 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   done(Stage::Prediction);
 }
 
-// Uses the largest speed at the start of the substep.
+void ReferenceSolver::addSpeed(double speed) {
+  fastest_ = std::max(fastest_, speed);
+  squares_ += std::min(speed * speed, kMaxMotion * glm::length(settings.gravity) * settings.spacing);
+}
+
+// Uses the speeds at the start of the substep.
 void ReferenceSolver::updateRestFactor() {
-  const double fraction = settings.motionSpeed > 0 ? std::min(fastest_ / settings.motionSpeed, 1.0) : 1;
+  const double flow = std::min(fastest_, kFlowTimes * std::sqrt(squares_ / static_cast<double>(std::max<size_t>(size(), 1))));
+  const double fraction = settings.motionSpeed > 0 ? std::min(flow / settings.motionSpeed, 1.0) : 1;
   restFactor_ = 1 - std::pow(fraction, 4);
 }
 
@@ -268,13 +274,13 @@ void ReferenceSolver::velocities(double dt) {
                                4 * dt * glm::length(settings.gravity));
   const AddReaction add = addTo(impulses_, solids, 1 / dt);
   std::vector<double> kept(size(), 1);
-  fastest_ = 0;  // excludes solids, as in the shaders
+  fastest_ = squares_ = 0;  // exclude solids, as in the shaders
   for (size_t i = 0; i < size(); ++i) {
     const double gain = glm::length(gain_[i]);
     kept[i] = gain > maxGain ? maxGain / gain : 1;
     const double removed = 1 - kept[i];
     const glm::dvec3 excess = removed * (gain_[i] + 0.5 * (wallPosition_[i] - gain_[i] - state.position[i]));
-    if (finite(wallPosition_[i])) fastest_ = std::max(fastest_, glm::length(wallPosition_[i] - state.position[i] - excess) / dt);
+    if (finite(wallPosition_[i])) addSpeed(glm::length(wallPosition_[i] - state.position[i] - excess) / dt);
     glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess - rejected_[i]) / dt, dt, solids, add);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;

@@ -78,7 +78,7 @@ struct ReferenceSettings {
   double warmStart = 0.01;    ///< kappa in motion, 0 .. 0.5
   double warmRelease = 1.5;   ///< factor on kappa where the density is below rest density
 
-  double motionSpeed = 0;       ///< largest speed, m/s, from which on omega and kappa are those above; 0: always
+  double motionSpeed = 0;       ///< speed of the flow (FluidControl::flowSpeed), m/s, from which on omega and kappa are those above; 0: always
   double relaxationAtRest = 0;  ///< omega at rest; interpolated by the fourth power of the speed
   double warmStartAtRest = 0;   ///< kappa at rest
   double startTime = 0;         ///< s, time() at the beginning
@@ -212,6 +212,7 @@ class ReferenceSolver {
   void addImages(uint32_t i, std::span<const uint32_t> neighbors);
   void predictPositions(double dt, bool atRest);
   void deactivate(size_t i);
+  void addSpeed(double speed);
   void updateRestFactor();
   double densityScale() const;  ///< factor on the fluid's part of the density
   /// sum_j K_ij (v_j - v_i). `reversed`: of images -v_j, else mirrored.
@@ -263,6 +264,7 @@ class ReferenceSolver {
   int substeps_ = 0;                      ///< since the start
   double restFactor_ = 0;                 ///< 1: at rest, 0: at motionSpeed or faster
   double fastest_ = 0;                    ///< largest speed, m/s, initially or in the last velocities()
+  double squares_ = 0;                    ///< sum of the squares of speeds, m^2/s^2, likewise
   std::vector<glm::dvec3> wallPosition_;  ///< m, position after the last correction and the walls, before solids
   std::vector<glm::dvec3> gain_;          ///< m, displacement by the last correction and the walls
 };

@@ -73,6 +73,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.step = control.nextStep;
     control.error = error;
     control.speed = max(uintBitsToFloat(sums.speedMax), control.emitterSpeed);
+    control.flowSpeed = min(control.speed, kFlowTimes * sqrt(meanMotion()));
     sums.speedMax = 0u;
     control.bodySpeed = uintBitsToFloat(sums.bodySpeed);
     sums.bodySpeed = 0u;

@@ -157,8 +157,8 @@ void main() {
   float speed = moves ? endSubstep(i, head) : 0.0;
   if (inRange && !moves) storeAcceleration(i);
   float fastest = subgroupMax(speed);
-  float motion = SLEEP ? subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion)) : 0.0;
+  float motion = subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion));
   if (!subgroupElect()) return;
   atomicMax(sums.speedMax, floatBitsToUint(fastest));
-  if (SLEEP) addMotion(uint(motion / kMotionUnit + 0.5));
+  addMotion(uint(motion / kMotionUnit + 0.5));
 }

@@ -1,11 +1,17 @@
 // Relaxation, warm-start gain and noise damping between fluid at rest and in motion: the gains of a
-// flow would add energy to a still tank. See docs/notes/noise-damping.md. Needs `params` and a `control` to write.
+// flow would add energy to a still tank. See docs/notes/noise-damping.md. Needs `params`, `sums` and a
+// `control` to write.
 #ifndef RILL_GAINS_GLSL
 #define RILL_GAINS_GLSL
 #include "fluid/stability.glsl"
-// From the fastest particle's speed, the gains of the next substep.
+// Mean square of the speeds after the last correction, m^2/s^2.
+float meanMotion() {
+  return (float(sums.motionHigh) * 4294967296.0 + float(sums.motionLow)) * kMotionUnit / float(max(control.solved, 1u)) * params.layerHead;
+}
+
+// From the speed of the flow, the gains of the next substep.
 void setGains() {
-  float moving = motionSpeed(control.head), share = moving > 0.0 ? min(control.speed / moving, 1.0) : 1.0, squared = share * share;
+  float moving = motionSpeed(control.head), share = moving > 0.0 ? min(control.flowSpeed / moving, 1.0) : 1.0, squared = share * share;
   control.restFraction = 1.0 - squared * squared;
   control.relaxation = control.nextRelaxation;
   control.warmGain = control.nextWarmGain;

@@ -8,11 +8,6 @@
 const float kRestBodies = 2.0;         // times the limit of the root mean square: the fastest body
 const float kRestPressure = 0.5;       // share of the mean compression by which that of a substep may differ
 
-// Mean square of the speeds after the last correction, m^2/s^2.
-float meanMotion() {
-  return (float(sums.motionHigh) * 4294967296.0 + float(sums.motionLow)) * kMotionUnit / float(max(control.count, 1u)) * params.layerHead;
-}
-
 // s until something moves that is known beforehand; 0: it does.
 float quietTime() {
   float quiet = 3.0e38;

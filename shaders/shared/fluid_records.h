@@ -148,6 +148,7 @@ struct FluidControl {
   float timeDropped;   // s, of the advance
   float travel;        // m that the fastest particle moved since the list was built
   float speed;         // m/s, the fastest particle
+  float flowSpeed;     // m/s, which tells flow from rest: that speed, or kFlowTimes the root mean square if that is less
   float error;         // mean compression of the last prediction
   float gravityX, gravityY, gravityZ;  // m/s^2, for the prediction of the next substep
   uint listState;      // kListValid, kListDue or kListNone
@@ -204,10 +205,11 @@ struct FluidSums {
   uint columnSumLowX, columnSumLowY, columnSumLowZ;
   uint columnSumHighX, columnSumHighY, columnSumHighZ;
   uint asleep;               // particles in regions that sleep, at the last build
-  uint motionLow, motionHigh;  // where fluid may sleep: 64-bit sum of squared speeds over gravity times spacing, in kMotionUnit
+  uint motionLow, motionHigh;  // 64-bit sum of squared speeds over gravity times spacing, in kMotionUnit
 };
-RILL_CONST float kMotionUnit = 1.0f / 4194304.0f;
-RILL_CONST float kMaxMotion = 4.0f;  // what one particle adds, at most
+RILL_CONST float kMotionUnit = 1.0f / 1048576.0f;
+RILL_CONST float kMaxMotion = 32.0f;  // what one particle adds, at most
+RILL_CONST float kFlowTimes = 4.0f;   // the fastest particle of a flow is about so many times as fast as the root mean square
 RILL_CONST float kColumnUnits = 16.0f;
 RILL_CONST uint kMaxColumnPlace = (1u << 18) - 1u;
 RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;

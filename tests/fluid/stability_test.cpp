@@ -153,7 +153,7 @@ TEST_F(StabilityTest, DeviceFormulasMatchTheHost) {
       const StabilityLimits& limits = implOf(run->fluid()).setup.limits;
       EXPECT_NEAR(c.head, headOf(t, layers - 1), 0.01 * headOf(t, layers - 1));
       EXPECT_NEAR(c.desiredStep / limits.longestStep(c.head), 1, 1e-5);
-      const double rest = 1 - std::pow(std::min(c.speed / limits.motionSpeed(c.head), 1.0), 4);
+      const double rest = 1 - std::pow(std::min(c.flowSpeed / limits.motionSpeed(c.head), 1.0), 4);
       EXPECT_NEAR(c.restFraction, rest, 1e-5);
       EXPECT_NEAR(c.nextWarmGain, std::lerp(limits.warmGainInMotion, limits.warmGainAtRest(c.head), rest), 1e-6);
     }
