@@ -151,11 +151,12 @@ void main() {
   here = uintBitsToFloat(particle.xyz);
   own = multipliers(particle);
   uint head = headOf(i, inRange);
-  visitNeighbors(i, head, local, inRange);
-  // No lane leaves before the maximum: those that are left need not come together again.
   bool moves = inRange && !sleeps(head);
+  bool looks = moves || (inRange && control.regionTime <= 1.01 * control.step);  // asleep: once for each list
+  visitNeighbors(i, looks ? head : 0u, local, looks);
+  // No lane leaves before the maximum: those that are left need not come together again.
   float speed = moves ? endSubstep(i, head) : 0.0;
-  if (inRange && !moves) storeAcceleration(i);
+  if (looks && !moves) storeAcceleration(i);
   float fastest = subgroupMax(speed);
   float motion = subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion));
   if (!subgroupElect()) return;

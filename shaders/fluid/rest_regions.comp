@@ -45,6 +45,7 @@ bool isVisited(uvec3 at) {
 void main() {
   uint r = flatInvocation();
   if (r >= regionCount()) return;
+  if (regions[r].state == kRegionEmpty && regions[r].particles == 0u) return;
   RegionRecord region = regions[r];
   if (region.woken != 0u) region.state = kRegionAwake;
   region.woken = 0u;

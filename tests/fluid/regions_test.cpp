@@ -1,0 +1,234 @@
+// Regions of a fluid fall asleep on their own: what substeps leave out, what wakes a region, and that the fluid ends where it would have
+// without sleep.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "fluid/rig.hpp"
+#include "fluid/sleep.hpp"
+#include "fluid/snapshot.hpp"
+
+namespace rill::test {
+namespace regions_test {
+
+constexpr double kFrame = 1.0 / 60;
+constexpr glm::ivec3 kRoom = {64, 16, 4};
+constexpr int kLayers = 6;
+constexpr double kOpens = 10;  // s, the tap: all sleeps by then
+
+/// A long tank with a tap over its low end. Its lattice is stable, so that it is at rest soon.
+Trial channel() {
+  Trial t = trial();
+  t.scene.fluid.spacing = 0.02;
+  t.scene.fluid.smoothing_ratio = 2;
+  t.scene.solver = SolverSettings{};
+  t.scene.solver.sleep = true;
+  setWalls(t, glm::dvec3(kRoom) * t.d());
+  t.step = kFrame;
+  t.x = block({kRoom.x, kLayers, kRoom.z}, t.d());
+  t.capacity = static_cast<uint32_t>(t.x.size()) + 200;
+  t.scene.emitters = {
+      {.mouth = DiscMouth{.center = {0.06, 0.2, 0.04}, .radius = 0.02, .normal = {0, -1, 0}}, .flow = 1e-4, .from = kOpens, .until = kOpens + 1.5}};
+  return t;
+}
+
+std::vector<RegionRecord> regionsOf(const FluidSnapshot& s) {
+  std::vector<RegionRecord> all(s.regions.size() / kRegionWords);
+  std::memcpy(all.data(), s.regions.data(), s.regions.size() * 4);
+  return all;
+}
+
+FluidControl controlOf(const FluidSnapshot& s) {
+  FluidControl control;
+  std::memcpy(&control, s.control.data(), sizeof control);
+  return control;
+}
+
+double height(const Snapshot& s, double from, double until) {
+  double sum = 0, count = 0;
+  for (const glm::dvec3& x : s.x)
+    if (x.x >= from && x.x < until) sum += x.y, ++count;
+  return 2 * sum / count;
+}
+
+class RegionsTest : public FluidTest {
+ protected:
+  static void frames(Run& run, double seconds) {
+    for (int frame = 0; frame < std::lround(seconds / kFrame); ++frame) run.advance(kFrame, 21);
+  }
+  static uint64_t sleeping(Run& run) { return run.stats().sleeping.value_or(0); }
+  /// Of the channel, while the tap runs: a part of it sleeps.
+  const FluidSnapshot& partlyAsleep() {
+    static const FluidSnapshot state = afterOpening();
+    return state;
+  }
+  FluidSnapshot afterOpening() {
+    auto run = start(channel());
+    frames(*run, kOpens + 0.3);
+    const uint64_t asleep = sleeping(*run);
+    EXPECT_GT(asleep, 0u);
+    EXPECT_LT(asleep, run->fluid().count());
+    return run->saved();
+  }
+};
+
+// What moves finds all of its neighbors among the particles that substeps are over, which the zones are made for.
+TEST_F(RegionsTest, SubstepsAreOverWhatMovesAndWhatIsNearIt) {
+  const Trial t = channel();
+  const FluidSnapshot& s = partlyAsleep();
+  auto run = start(t, &s);
+  const FluidParams& p = implOf(run->fluid()).setup.params;
+  const std::vector<uint32_t> zones = zonesOf(s, p);
+  ASSERT_EQ(zones.size(), s.id.size());
+  const uint32_t solved = controlOf(s).solved;
+  EXPECT_LT(solved, s.id.size());
+  EXPECT_EQ(solved, std::ranges::count_if(zones, [](uint32_t zone) { return zone != kZoneAsleep; }));
+  const auto place = [&](size_t i) { return glm::dvec3(s.position[i].x, s.position[i].y, s.position[i].z); };
+  size_t asleep = 0;
+  for (size_t i = 0; i < zones.size(); ++i) {
+    asleep += zones[i] != kZoneMoves;
+    EXPECT_EQ(zones[i] == kZoneAsleep, i >= solved);
+    EXPECT_TRUE(zones[i] == kZoneMoves || (s.velocity[i].x == 0 && s.velocity[i].y == 0 && s.velocity[i].z == 0));
+    for (size_t j = 0; j < zones.size(); ++j) {
+      const double distance = glm::length(place(i) - place(j));
+      if (distance >= p.support) continue;
+      EXPECT_LE(zones[j], zones[i] + 1);
+    }
+  }
+  EXPECT_EQ(sleeping(*run), asleep);
+}
+
+// The zones are those of an independent computation from the regions' states.
+TEST_F(RegionsTest, ZonesFollowFromTheDistanceToOneAwake) {
+  const Trial t = channel();
+  const FluidSnapshot& s = partlyAsleep();
+  auto run = start(t, &s);
+  const FluidParams& p = implOf(run->fluid()).setup.params;
+  const std::vector<RegionRecord> regions = regionsOf(s);
+  ASSERT_EQ(regions.size(), regionCount(p));
+  const glm::ivec3 counts(p.regionsX, p.regionsY, p.regionsZ);
+  const auto at = [&](size_t r) {
+    return glm::ivec3(int(r) % counts.x, int(r) / counts.x % counts.y, int(r) / counts.x / counts.y);
+  };
+  for (size_t r = 0; r < regions.size(); ++r) {
+    int nearest = kZoneAsleep;
+    for (size_t q = 0; q < regions.size(); ++q) {
+      if (regions[q].state != kRegionAwake && regions[q].woken == 0) continue;
+      const glm::ivec3 apart = glm::abs(at(r) - at(q)), wrapped = glm::min(apart, counts - apart);
+      nearest = std::min(nearest, std::max({wrapped.x, wrapped.y, wrapped.z}));
+    }
+    EXPECT_EQ(int(regions[r].zone), nearest) << r;
+  }
+}
+
+TEST_F(RegionsTest, BitsAreTheSameOnEachRun) { EXPECT_EQ(afterOpening(), partlyAsleep()); }
+
+TEST_F(RegionsTest, BitsAreTheSameAcrossACheckpointInEveryWayToGather) {
+  for (Gather gather : kGathers) {
+    SCOPED_TRACE(nameOf(gather));
+    Trial t = channel();
+    t.gather = gather;
+    FluidSnapshot state = partlyAsleep();
+    forgetNeighbors(state);  // each way has its own lists
+    if (gather == Gather::Grid) state.listCapacity = 0;
+    auto whole = start(t, &state);
+    frames(*whole, 0.1);
+    const FluidSnapshot between = whole->saved();
+    EXPECT_LT(controlOf(between).solved, between.id.size());
+    auto resumed = start(t, &between);
+    frames(*whole, 0.2);
+    frames(*resumed, 0.2);
+    EXPECT_EQ(whole->saved(), resumed->saved());
+  }
+}
+
+// The tap raises the level by most of a layer, so slowly that hardly anything moves: pressure has to wake what sleeps.
+TEST_F(RegionsTest, EndsWhereItWouldWithoutSleep) {
+  Trial t = channel();
+  FluidSnapshot state = partlyAsleep();
+  auto sleeps = start(t, &state);
+  t.scene.solver.sleep = false;
+  wake(state);
+  state.regions.clear();
+  auto never = start(t, &state);
+  frames(*sleeps, 7);
+  frames(*never, 7);
+  EXPECT_GT(sleeping(*sleeps), sleeps->fluid().count() / 2);
+  const FluidStats a = sleeps->stats(), b = never->stats();
+  EXPECT_EQ(a.particles, b.particles);
+  EXPECT_GT(a.particles, t.x.size());
+  EXPECT_NEAR(a.potential_J, b.potential_J, 0.005 * b.potential_J);
+  const Snapshot as = sleeps->snapshot(), bs = never->snapshot();
+  const double quarter = kRoom.x / 4 * t.d();
+  for (int part = 0; part < 4; ++part)
+    EXPECT_NEAR(height(as, part * quarter, (part + 1) * quarter), height(bs, part * quarter, (part + 1) * quarter), 0.1 * t.d()) << part;
+}
+
+TEST_F(RegionsTest, GravityWakesAllAtItsTime) {
+  Trial t = channel();
+  t.scene.gravity_changes = {{1000, {1, -9.81, 0}}};
+  const FluidSnapshot& state = partlyAsleep();
+  t.scene.gravity_changes[0].at = controlOf(state).timeHigh + 2.5 * kFrame;
+  auto run = start(t, &state);
+  frames(*run, 2 * kFrame);
+  EXPECT_GT(sleeping(*run), 0u);
+  frames(*run, kFrame);
+  EXPECT_EQ(sleeping(*run), 0u);
+}
+
+TEST_F(RegionsTest, HostWakesBySnapshot) {
+  Trial t = channel();
+  FluidSnapshot state = partlyAsleep();
+  const std::vector<float> before = state.warmStart;
+  wake(state);
+  EXPECT_EQ(controlOf(state).solved, state.id.size());
+  auto run = start(t, &state);
+  frames(*run, kFrame);
+  EXPECT_EQ(sleeping(*run), 0u);
+  EXPECT_LT(std::abs(height(run->snapshot(), 0.6, 1.28) - kLayers * t.d()), 0.1 * t.d());
+}
+
+// Fluid beside a solid stays awake: it may begin to move.
+TEST_F(RegionsTest, FluidAtSolidsStaysAwake) {
+  Trial t = channel();
+  t.scene.emitters.clear();
+  t.capacity = 0;
+  t.scene.solids = {slab({0.6, -0.1, -0.1}, {0.64, 0.4, 0.4})};
+  t.x.clear();
+  addOutsideSolids(t, block({kRoom.x, kLayers, kRoom.z}, t.d()));
+  auto run = start(t);
+  frames(*run, kOpens);
+  const FluidSnapshot s = run->saved();
+  const std::vector<uint32_t> zones = zonesOf(s, implOf(run->fluid()).setup.params);
+  if (zones.empty()) return;  // the whole fluid sleeps: its list is due
+  for (size_t i = 0; i < zones.size(); ++i)
+    EXPECT_TRUE(zones[i] == kZoneMoves || std::abs(s.position[i].x - 0.62F) > 0.06F);
+}
+
+TEST_F(RegionsTest, ChecksRegionsOfASnapshot) {
+  const Trial t = channel();
+  const FluidSnapshot& good = partlyAsleep();
+  const auto refused = [&](const FluidSnapshot& s) {
+    const Scene scene = t.timedScene();
+    const ParticleSet particles = t.particles();
+    const auto made = Fluid::create(rillDevice(), {.scene = &scene, .particles = &particles, .snapshot = &s});
+    return made ? std::string() : made.error().message;
+  };
+  const size_t zone = offsetof(RegionRecord, zone) / 4, rest = offsetof(RegionRecord, restShare) / 4;
+  FluidSnapshot bad = good;
+  bad.regions[zone] = 4;
+  EXPECT_NE(refused(bad).find("regions[0] has a state that is not valid"), std::string::npos) << refused(bad);
+  bad = good;
+  bad.regions[rest + kRegionWords] = 0x7f800000;
+  EXPECT_NE(refused(bad).find("regions[1]"), std::string::npos);
+  bad = good;
+  bad.regions.pop_back();
+  EXPECT_NE(refused(bad).find("regions has"), std::string::npos);
+  bad = good;
+  bad.control[offsetof(FluidControl, solved) / 4] += 1;
+  EXPECT_NE(refused(bad).find("come last"), std::string::npos);
+}
+
+}  // namespace regions_test
+}  // namespace rill::test
