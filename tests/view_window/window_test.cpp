@@ -195,8 +195,8 @@ TEST_F(ViewWindowTest, CyclesThroughScenes) {
 
 TEST_F(ViewWindowTest, OpensEveryScene) {
   std::string script;
-  for (int k = 0; k < 18; ++k) script += std::to_string(2 * k + 1) + " key ]\n";
-  folder.write("hands.txt", script + "38 view particles\n");
+  for (int k = 0; k < 19; ++k) script += std::to_string(2 * k + 1) + " key ]\n";
+  folder.write("hands.txt", script + "40 view particles\n");
   const Outcome outcome = view({"box-and-sphere", "--view", "particles", "--size", "320x200", "--script", "hands.txt", "--validate"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");

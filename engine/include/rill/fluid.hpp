@@ -216,7 +216,7 @@ struct FluidStats {
   uint64_t loopBoundHits = 0;              ///< times that a shader loop reached its iteration limit since the start
   uint32_t listBuilds = 0;                 ///< neighbor list builds in the last advance
   std::optional<BodyFigures> bodies = {};  ///< if the scene has some; they are in no other figure
-  std::optional<uint64_t> sleeping = {};   ///< particles asleep, with solver.sleep
+  std::optional<uint64_t> sleeping = {};   ///< particles asleep, all or those in regions at rest, with solver.sleep
   double artificialViscosity_Pa_s = 0;     ///< what solver.artificial_viscosity adds to the shortest waves now, Pa s, before its bound
 };
 

@@ -96,7 +96,7 @@ struct SolverSettings {
   std::optional<double> artificial_viscosity = {};  ///< noise damping at rest, over density x spacing x sqrt(g x spacing), 0 .. 1
   KernelChoice kernel = KernelChoice::Wendland;
   NeighborChoice neighbors = NeighborChoice::List;
-  bool sleep = false;  ///< fluid at rest takes no substeps until something moves it
+  bool sleep = false;  ///< fluid at rest, or regions of it, take no part in substeps until something moves them
 };
 
 /// An axis-aligned box.
