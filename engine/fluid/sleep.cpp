@@ -13,7 +13,7 @@ namespace rill {
 namespace {
 
 constexpr uint32_t kLeastRegions = 8;  // along the longest axis: nothing sleeps within three of one awake
-constexpr double kRelease = 0.1;  // s after a body's release in which it need not have moved yet
+constexpr double kRelease = 0.1;       // s after a body's release in which it need not have moved yet
 
 /// Seconds in which something moves.
 struct Interval {

@@ -247,10 +247,12 @@ uint64_t flowWords(const FluidSetup& setup) {
 }
 
 SnapshotShape snapshotShape(const FluidSetup& setup) {
-  return {setup.params.capacity,      setup.params.solidCount,   setup.params.bodyCount,
-          setup.params.contactPoints, setup.params.listCapacity, setup.params.emitterCount,
-          flowWords(setup),           regionCount(setup.params), setup.grid.cells(),
-          setup.params.initialPressureIterations, setup.walls && !setup.thin, setup.movingSolids};
+  return {setup.params.capacity,      setup.params.solidCount,
+          setup.params.bodyCount,     setup.params.contactPoints,
+          setup.params.listCapacity,  setup.params.emitterCount,
+          flowWords(setup),           regionCount(setup.params),
+          setup.grid.cells(),         setup.params.initialPressureIterations,
+          setup.walls && !setup.thin, setup.movingSolids};
 }
 
 bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).listState == kListValid; }

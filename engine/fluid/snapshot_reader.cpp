@@ -43,9 +43,9 @@ void SnapshotReader::declare(Graph& graph) {
   const auto read = [&](size_t slot) { tickets_.push_back(graph.readback(importWhole(graph, "state", fluid_.slot(slot)))); };
   const uint32_t part = parts_[next_];
   if (part != kRecords) return read(part);
-  for (FluidArray array : {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads, FluidArray::Bodies,
-                           FluidArray::Slips, FluidArray::PressureProbes, FluidArray::Flow, FluidArray::Emitters, FluidArray::Drains,
-                           FluidArray::Regions})
+  for (FluidArray array :
+       {FluidArray::Control, FluidArray::Sums, FluidArray::Solids, FluidArray::SolidLoads, FluidArray::Bodies, FluidArray::Slips,
+        FluidArray::PressureProbes, FluidArray::Flow, FluidArray::Emitters, FluidArray::Drains, FluidArray::Regions})
     read(slotOf(array));
 }
 

@@ -129,7 +129,8 @@ struct Table<SolverSettings> {
                  .words = kNeighborWords},
             &SolverSettings::neighbors},
       Field{Info{.key = "sleep",
-                 .help = "true: fluid at rest, or regions of it, take no part in substeps until gravity, a solid, a body, a wave or the host moves them. Not without gravity",
+                 .help = "true: fluid at rest, or regions of it, take no part in substeps until gravity, a solid, a body, a wave or the "
+                         "host moves them. Not without gravity",
                  .since = "0.2"},
             &SolverSettings::sleep}};
 };

@@ -78,7 +78,7 @@ struct ReferenceSettings {
   double warmStart = 0.01;    ///< kappa in motion, 0 .. 0.5
   double warmRelease = 1.5;   ///< factor on kappa where the density is below rest density
 
-  double motionSpeed = 0;       ///< speed of the flow (FluidControl::flowSpeed), m/s, from which on omega and kappa are those above; 0: always
+  double motionSpeed = 0;  ///< speed of the flow (FluidControl::flowSpeed), m/s, from which on omega and kappa are those above; 0: always
   double relaxationAtRest = 0;  ///< omega at rest; interpolated by the fourth power of the speed
   double warmStartAtRest = 0;   ///< kappa at rest
   double startTime = 0;         ///< s, time() at the beginning

@@ -28,8 +28,10 @@ Trial channel() {
   t.step = kFrame;
   t.x = block({kRoom.x, kLayers, kRoom.z}, t.d());
   t.capacity = static_cast<uint32_t>(t.x.size()) + 200;
-  t.scene.emitters = {
-      {.mouth = DiscMouth{.center = {0.06, 0.2, 0.04}, .radius = 0.02, .normal = {0, -1, 0}}, .flow = 1e-4, .from = kOpens, .until = kOpens + 1.5}};
+  t.scene.emitters = {{.mouth = DiscMouth{.center = {0.06, 0.2, 0.04}, .radius = 0.02, .normal = {0, -1, 0}},
+                       .flow = 1e-4,
+                       .from = kOpens,
+                       .until = kOpens + 1.5}};
   return t;
 }
 
@@ -108,9 +110,7 @@ TEST_F(RegionsTest, ZonesFollowFromTheDistanceToOneAwake) {
   const std::vector<RegionRecord> regions = regionsOf(s);
   ASSERT_EQ(regions.size(), regionCount(p));
   const glm::ivec3 counts(p.regionsX, p.regionsY, p.regionsZ);
-  const auto at = [&](size_t r) {
-    return glm::ivec3(int(r) % counts.x, int(r) / counts.x % counts.y, int(r) / counts.x / counts.y);
-  };
+  const auto at = [&](size_t r) { return glm::ivec3(int(r) % counts.x, int(r) / counts.x % counts.y, int(r) / counts.x / counts.y); };
   for (size_t r = 0; r < regions.size(); ++r) {
     int nearest = kZoneAsleep;
     for (size_t q = 0; q < regions.size(); ++q) {
@@ -202,8 +202,7 @@ TEST_F(RegionsTest, FluidAtSolidsStaysAwake) {
   const FluidSnapshot s = run->saved();
   const std::vector<uint32_t> zones = zonesOf(s, implOf(run->fluid()).setup.params);
   if (zones.empty()) return;  // the whole fluid sleeps: its list is due
-  for (size_t i = 0; i < zones.size(); ++i)
-    EXPECT_TRUE(zones[i] == kZoneMoves || std::abs(s.position[i].x - 0.62F) > 0.06F);
+  for (size_t i = 0; i < zones.size(); ++i) EXPECT_TRUE(zones[i] == kZoneMoves || std::abs(s.position[i].x - 0.62F) > 0.06F);
 }
 
 TEST_F(RegionsTest, ChecksRegionsOfASnapshot) {

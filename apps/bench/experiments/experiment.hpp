@@ -59,6 +59,7 @@ std::vector<Experiment> tapExperiments();         ///< level of a tank that a ta
 std::vector<Experiment> channelExperiments();     ///< laminar flow from an emitter to an open side
 std::vector<Experiment> orificeExperiments();     ///< jet from a tank that is kept full
 std::vector<Experiment> weirExperiments();        ///< discharge over a weir
+std::vector<Experiment> lakeExperiments();        ///< a tank with regions that sleep, and without
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
 /// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.
