@@ -32,7 +32,8 @@ void main() {
   atomicAdd(regions[r].particles, 1u);
   atomicMax(regions[r].fastest, floatBitsToUint(length(v)));
   atomicAdd(regions[r].motion, uint(min(speed * speed, kMaxRegionMotion) / kRegionMotionUnit));
-  ivec3 drift = terms(v / fall), force = terms((keptWarmAcceleration(warmAccelerationAt(i)) + gravity()) * (params.spacing / params.layerHead));
+  vec3 moving = keptWarmAcceleration(warmAccelerationAt(i)) + gravity();
+  ivec3 drift = terms(v / fall), force = terms(moving * (params.spacing / params.layerHead));
   atomicAdd(regions[r].driftX, drift.x);
   atomicAdd(regions[r].driftY, drift.y);
   atomicAdd(regions[r].driftZ, drift.z);
