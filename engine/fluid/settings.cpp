@@ -392,12 +392,12 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setInitialPressure(scene, kernel, room, setup);
 
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();
-  setup.grid = chooseGridSize(p.reach, room, start.capacity);
+  setup.grid = chooseGridSize(p.reach, extentWithGap(room, setup), start.capacity);
   p.gridSizeX = setup.grid.size[0];
   p.gridSizeY = setup.grid.size[1];
   p.gridSizeZ = setup.grid.size[2];
   p.inverseCell = f(1 / setup.grid.cell);
-  addRegions(setup);
+  addRegions(room, setup);
   return setup;
 }
 

@@ -36,6 +36,16 @@ std::vector<Interval> causes(const Scene& scene) {
   return all;
 }
 
+/// m, in each dimension.
+double regionEdge(const FluidSetup& setup) { return double{setup.params.reach} * kRegionCellsY; }
+
+std::string whyNoRegions(const Double3& room, const FluidSetup& setup) {
+  if (setup.params.sleeps == 0) return setup.whyNoSleep;
+  if (!setup.warm) return "without a warm start the forces on fluid at rest are not known";
+  if (std::max({room[0], room[1], room[2]}) < kLeastRegions * regionEdge(setup)) return "the room is too small to be divided";
+  return {};
+}
+
 /// Sorted, those that touch as one.
 std::vector<Interval> merged(std::vector<Interval> all) {
   std::ranges::sort(all, {}, &Interval::from);
@@ -65,22 +75,18 @@ void addSleep(const Scene& scene, double room, FluidSetup& setup) {
   setup.params.wakes = static_cast<uint32_t>(wakes.size());
 }
 
-void addRegions(FluidSetup& setup) {
+Double3 extentWithGap(const Double3& room, const FluidSetup& setup) {
+  if (!whyNoRegions(room, setup).empty()) return room;
+  const double gap = 2 * regionEdge(setup);  // holds a whole region, wherever the room begins
+  return {room[0] + gap, room[1] + gap, room[2] + gap};
+}
+
+void addRegions(const Double3& room, FluidSetup& setup) {
   FluidParams& p = setup.params;
-  if (p.sleeps == 0) {
-    setup.whyNoRegions = setup.whyNoSleep;
-    return;
-  }
-  if (!setup.warm) {
-    setup.whyNoRegions = "without a warm start the forces on fluid at rest are not known";
-    return;
-  }
+  setup.whyNoRegions = whyNoRegions(room, setup);
+  if (!setup.whyNoRegions.empty()) return;
   const uint32_t x = std::max(p.gridSizeX / kRegionCellsX, 1u), y = std::max(p.gridSizeY / kRegionCellsY, 1u),
                  z = std::max(p.gridSizeZ / kRegionCellsZ, 1u);
-  if (std::max({x, y, z}) < kLeastRegions) {
-    setup.whyNoRegions = "the room is too small to be divided";
-    return;
-  }
   p.regionsX = x, p.regionsY = y, p.regionsZ = z;
 }
 

@@ -15,8 +15,12 @@ constexpr size_t kRegionWords = sizeof(RegionRecord) / 4;  ///< a region, of Flu
 /// fluid's room. Call it after the schedule is set.
 void addSleep(const Scene& scene, double room, FluidSetup& setup);
 
+/// What the grid has to cover: the room, m, and where regions fall asleep on their own as much more that opposite sides of it are not
+/// beside each other on the wrapped grid.
+Double3 extentWithGap(const Double3& room, const FluidSetup& setup);
+
 /// Divides the grid into regions that fall asleep on their own, if the fluid may sleep and has room for it. Call it after the grid is set.
-void addRegions(FluidSetup& setup);
+void addRegions(const Double3& room, FluidSetup& setup);
 
 /// The zone (region_records.h) of each particle, from the regions and cells of a snapshot. Empty where no regions sleep.
 std::vector<uint32_t> zonesOf(const FluidSnapshot& snapshot, const FluidParams& params);

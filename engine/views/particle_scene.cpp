@@ -159,6 +159,7 @@ ParticleScene particleScene(const Scene& scene, const ParticleSet& particles) {
     record.colors[k] = {speed.x, speed.y, speed.z, 1};
     record.colors[kColors + k] = {compression.x, compression.y, compression.z, 1};
   }
+  if (scene.solver.sleep) record.asleep = {0.18F, 0.18F, 0.18F, 1};
   out.speed_max = roundNicely(fallSpeed(scene, particles));
   out.compression_max = scene.solver.tolerance > 0 ? roundNicely(std::clamp(10 * scene.solver.tolerance, 0.001, 0.2)) : 0.01;
   return out;

@@ -80,6 +80,7 @@ struct SceneRecord {
   vec4 light_v;
   vec4 light_to;     // direction to the light; w: coordinate of the plane where light depth is 0
   vec4 light_texel;  // x: size of a texel, y: range of light depths
+  vec4 asleep;       // linear RGB of particles asleep, by speed; w: 1 if the fluid may sleep
   vec4 colors[2 * kColors];  // linear RGB: by speed, by compression
 };
 

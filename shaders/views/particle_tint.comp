@@ -16,6 +16,7 @@ layout(std430, set = 0, binding = 7) writeonly buffer Tint { uvec2 tint[]; };
 #include "views/particle_light.glsl"
 
 vec3 particleColor(vec4 v) {
+  if (view.compression == 0u && scene.asleep.w > 0.0 && v.xyz == vec3(0.0)) return scene.asleep.rgb;  // what is awake always moves a little
   float value = (view.compression != 0u ? v.w - 1.0 : length(v.xyz)) * view.scale;
   if ((floatBitsToUint(value) & 0x7F800000u) == 0x7F800000u) value = 0.0;
   const float at = clamp(value, 0.0, 1.0) * float(kColors - 1u);

@@ -211,7 +211,7 @@ TEST_F(RegionsTest, ChecksRegionsOfASnapshot) {
   const auto refused = [&](const FluidSnapshot& s) {
     const Scene scene = t.timedScene();
     const ParticleSet particles = t.particles();
-    const auto made = Fluid::create(rillDevice(), {.scene = &scene, .particles = &particles, .snapshot = &s});
+    const auto made = Fluid::create(rillDevice(), {.scene = &scene, .particles = &particles, .snapshot = &s, .capacity = t.capacity});
     return made ? std::string() : made.error().message;
   };
   const size_t zone = offsetof(RegionRecord, zone) / 4, rest = offsetof(RegionRecord, restShare) / 4;
