@@ -1,0 +1,26 @@
+#version 460
+// Dispatch arguments of passes over blocks. Nothing is dispatched where blocks have no room.
+#extension GL_GOOGLE_include_directive : require
+#include "mesher/mesher.glsl"
+
+layout(local_size_x = 1) in;
+layout(std430, set = 0, binding = 0) buffer Counts { uint counts[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer Arguments { uint arguments[]; };
+
+void put(uint at, uint invocations) {
+  const uvec3 groups = foldGroups(divideUp(invocations, kMeshGroup));
+  arguments[at] = groups.x;
+  arguments[at + 1u] = groups.y;
+  arguments[at + 2u] = groups.z;
+}
+
+void main() {
+  // With too many occupied blocks the others are not all known.
+  const uint needed = max(counts[kMeshBlocksNeeded], counts[kMeshOccupied]);
+  counts[kMeshBlocksNeeded] = needed;
+  const uint blocks = needed <= mesh.max_blocks ? needed : 0u;
+  put(kMeshNeighborGroups, blocks * kMeshNeighbors);
+  put(kMeshBinGroups, blocks * kMeshBlockBins);
+  put(kMeshCornerGroups, blocks * kBlockCorners);
+  put(kMeshRowGroups, blocks * kBlockRows);
+}

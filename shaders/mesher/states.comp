@@ -1,0 +1,31 @@
+#version 460
+// The state of each bin: near the surface within a bin of a surface particle, else inside with particles in one of the bins around.
+#extension GL_GOOGLE_include_directive : require
+#include "mesher/mesher.glsl"
+
+layout(local_size_x = kMeshGroup) in;
+layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Neighbors { uint neighbors[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Surface { uint surface[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Counts { uint counts[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer States { uint states[]; };
+
+void main() {
+  const uint i = flatInvocation(), block = i / kMeshBlockBins;
+  if (block >= counts[kMeshBlocksNeeded]) return;
+  const ivec3 bin = ivec3(binOf(i % kMeshBlockBins));
+  uint state = kMeshOutside;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const ivec3 at = bin + ivec3(x, y, z);
+        const uint other = neighbors[neighborSlot(block, at >> 2)];
+        if (other == kMeshNone) continue;
+        const uint near = other * kMeshBlockBins + binIn(uvec3(at & 3));
+        if (surface[near] != 0u)
+          state = kMeshNear;
+        else if (state == kMeshOutside && start[near + 1u] > start[near])
+          state = kMeshInside;
+      }
+  states[i] = state;
+}
