@@ -19,6 +19,7 @@
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
+#include "shared/mesh_file.hpp"
 #include "shared/message.hpp"
 #include "shared/pipeline_cache_folder.hpp"
 #include "shared/ply.hpp"
@@ -26,6 +27,7 @@
 #include "shared/progress.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/signals.hpp"
+#include "shared/vtk_file.hpp"
 
 namespace rill::capture {
 namespace fs = std::filesystem;
@@ -71,6 +73,7 @@ class Capture {
       if (const auto finished = video_->finish(); !finished) code = fail(finished.error());
     if (poses_)
       if (const auto written = apps::writeFile(folder_->file("poses.csv"), poses_->text()); !written) code = fail(written.error());
+    if (const auto written = writeSeries(); !written) code = fail(written.error());
     if (const auto written = writeStats(); !written) code = fail(written.error());
     if (const auto written = writeGraph(); !written) code = fail(written.error());
     if (const auto reported = report(); !reported) code = fail(reported.error());
@@ -81,7 +84,9 @@ class Capture {
 
  private:
   bool rendersImages() const { return options_.images || options_.video; }
-  bool writesFrames() const { return options_.images || options_.exportPly || options_.exportPoses; }
+  bool writesFrames() const {
+    return options_.images || options_.exportPly || options_.exportMesh || options_.exportVtk || options_.exportPoses;
+  }
 
   Expected<void> readScene() {
     const auto file = apps::SceneFolders::standard().find(options_.scene);
@@ -210,10 +215,41 @@ class Capture {
     }
     if (poses_)
       if (auto added = poses_->add(k, time_s, *simulation_); !added) return added;
-    if (!options_.exportPly) return {};
+    if (auto written = writeMesh(k, time_s); !written || !(options_.exportPly || options_.exportVtk)) return written;
     auto particles = simulation_->particles();
     if (!particles) return particles.error();
-    return apps::writePly(folder_->frame(k, "ply"), *particles, time_s);
+    if (options_.exportPly)
+      if (auto written = apps::writePly(folder_->frame(k, "ply"), *particles, time_s); !written) return written;
+    return options_.exportVtk ? apps::writeFile(folder_->frame(k, "vtu"), apps::encodeVtu(*particles, time_s)) : Expected<void>();
+  }
+
+  Expected<void> writeMesh(uint32_t k, double time_s) {
+    if (!options_.exportMesh) return {};
+    auto mesh = simulation_->mesh(options_.meshCell);
+    if (!mesh) return mesh.error();
+    if (mesh->tooFar > 0 && !meshWarned_) {
+      message("warning: frame " + std::to_string(k) + ": " + grouped(mesh->tooFar) + " particles are too far away to be in the mesh");
+      meshWarned_ = true;
+    }
+    auto bytes = apps::encodeMesh(*mesh, time_s, options_.meshFormat);
+    if (!bytes) return bytes.error();
+    return apps::writeFile(folder_->frame(k, apps::meshExtension(options_.meshFormat)), *bytes);
+  }
+
+  /// Writes the lists of frames that ParaView opens; with --resume, frames that an earlier capture left are among them.
+  Expected<void> writeSeries() const {
+    const auto write = [&](bool wanted, const char* name, const char* extension) -> Expected<void> {
+      if (!wanted) return {};
+      std::vector<std::pair<double, std::string>> files;
+      for (uint32_t k = 0; k < first_ + static_cast<uint32_t>(record_->frames()); ++k) {
+        std::error_code ignored;
+        const fs::path file = folder_->frame(k, extension);
+        if (k >= first_ || fs::exists(file, ignored)) files.emplace_back(k / fps_, file.filename().string());
+      }
+      return apps::writeFile(folder_->file(name), apps::encodePvd(files));
+    };
+    if (auto written = write(options_.exportVtk, "particles.pvd", "vtu"); !written) return written;
+    return write(options_.exportMesh && options_.meshFormat == apps::MeshFormat::Vtp, "mesh.pvd", "mesh.vtp");
   }
 
   Expected<void> writeStats() const { return options_.stats ? apps::writeFile(*options_.stats, record_->json()) : Expected<void>(); }
@@ -245,9 +281,13 @@ class Capture {
         text += "\n";
       }
     }
-    if (!options_.quiet && (options_.images || options_.exportPly) && record_->frames() > 0) {
+    const bool particles = options_.exportPly || options_.exportVtk;
+    if (!options_.quiet && (options_.images || particles || options_.exportMesh) && record_->frames() > 0) {
       const auto last = static_cast<uint32_t>(first_ + record_->frames() - 1);
-      const char* kind = options_.images ? "png" : "ply";
+      const char* kind = options_.images       ? "png"
+                         : options_.exportPly  ? "ply"
+                         : options_.exportMesh ? apps::meshExtension(options_.meshFormat)
+                                               : "vtu";
       message("frames: " + folder_->frame(first_, kind).string() +
               (last > first_ ? " to " + folder_->frame(last, kind).filename().string() : ""));
     }
@@ -289,6 +329,7 @@ class Capture {
   uint32_t first_ = 0;   // number of the first one
   double fps_ = 60;
   std::optional<offline::Checkpoint> resumed_;
+  bool meshWarned_ = false;
   uint32_t checkpointed_ = 0;  // frames of this run at the last checkpoint
   apps::Progress progress_;
   std::optional<offline::Simulation> simulation_;

@@ -31,6 +31,7 @@ struct Raw {
   std::string scene, frames, fps, size, out, view, video, stats, particles, device, checkpoint, checkpointEvery, resume, play, orbit, graph,
       reads;
   std::vector<std::string> set, require, exportAs;
+  std::string meshFormat, meshCell;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
 };
 
@@ -71,8 +72,12 @@ void declare(CLI::App& app, Raw& raw) {
   once("--orbit", raw.orbit, "rotate the camera about its target, in degrees per simulated second", "DEG_PER_S", written);
   once("--video", raw.video, "also write the images as a video (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
   app.add_flag("--no-images", raw.noImages, "write no image files; without --video render none")->group(written);
-  list("--export", raw.exportAs, "write the particles of each frame (ply), or where the solids are (poses: DIR/poses.csv); may be repeated",
+  list("--export", raw.exportAs,
+       "write of each frame the particles (ply; vtk: .vtu and DIR/particles.pvd for ParaView), the fluid's surface (mesh), or where the "
+       "solids are (poses: DIR/poses.csv); may be repeated",
        "FORMAT", written);
+  once("--mesh-format", raw.meshFormat, "of --export mesh: ply, obj, glb or vtp (with DIR/mesh.pvd) (default: ply)", "FORMAT", written);
+  once("--mesh-cell", raw.meshCell, "side of the mesh's grid cells in particle spacings, 0.25 to 1 (default: 0.5)", "SPACINGS", written);
   once("--stats", raw.stats, "write all figures of all frames as JSON; - is standard output", "FILE", written);
 
   once("--graph", raw.graph, "write the render graph of the last image (without images: of the last simulation step) for Graphviz",
@@ -160,9 +165,25 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   }
   if (given("--export")) {
     for (const std::string& format : raw.exportAs) {
-      if (format != "ply" && format != "poses") return badInput("--export", format, "ply or poses");
-      (format == "ply" ? options.exportPly : options.exportPoses) = true;
+      constexpr std::pair<std::string_view, bool Options::*> formats[] = {
+          {"ply", &Options::exportPly}, {"mesh", &Options::exportMesh}, {"vtk", &Options::exportVtk}, {"poses", &Options::exportPoses}};
+      const auto* found = std::ranges::find(formats, format, [](const auto& known) { return known.first; });
+      if (found == std::end(formats)) return badInput("--export", format, "ply, mesh, vtk or poses");
+      options.*found->second = true;
     }
+  }
+  for (const char* option : {"--mesh-format", "--mesh-cell"})
+    if (given(option) && !options.exportMesh)
+      return Error{ErrorKind::BadInput, std::string(option) + ": needs --export mesh; expected both or neither"};
+  if (given("--mesh-format")) {
+    const auto format = apps::meshFormat(raw.meshFormat);
+    if (!format) return badInput("--mesh-format", raw.meshFormat, "ply, obj, glb or vtp");
+    options.meshFormat = *format;
+  }
+  if (given("--mesh-cell")) {
+    const auto cell = numberIn<double>(raw.meshCell);
+    if (!cell || !(*cell >= 0.25 && *cell <= 1)) return badInput("--mesh-cell", raw.meshCell, "a number of spacings from 0.25 to 1");
+    options.meshCell = *cell;
   }
   if (given("--particles")) {
     const auto particles = numberIn<uint64_t>(raw.particles);

@@ -10,6 +10,7 @@
 #include "rill/expected.hpp"
 #include "rill/scene_io.hpp"
 #include "shared/device_option.hpp"
+#include "shared/mesh_file.hpp"
 #include "shared/program.hpp"
 
 namespace rill::capture {
@@ -30,7 +31,9 @@ struct Options {
   std::optional<std::filesystem::path> video;  ///< video file of the images
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> graph;  ///< passes of the last image, in Graphviz's dot language
-  bool exportPly = false, exportPoses = false;
+  bool exportPly = false, exportPoses = false, exportMesh = false, exportVtk = false;
+  apps::MeshFormat meshFormat = apps::MeshFormat::Ply;
+  double meshCell = 0.5;                            ///< spacings
   std::optional<std::filesystem::path> checkpoint;  ///< file to write
   std::optional<double> checkpointEvery_s;          ///< wall time
   std::optional<std::filesystem::path> resume;      ///< checkpoint to resume from

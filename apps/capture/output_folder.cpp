@@ -1,5 +1,7 @@
 #include "capture/output_folder.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string_view>
 #include <system_error>
@@ -14,9 +16,11 @@ namespace {
 
 bool isFrame(std::string_view name) {
   constexpr std::string_view prefix = "frame_";
-  if (!name.starts_with(prefix) || !(name.ends_with(".png") || name.ends_with(".ply"))) return false;
-  const std::string_view digits = name.substr(prefix.size(), name.size() - prefix.size() - 4);
-  return digits.size() >= 5 && digits.find_first_not_of("0123456789") == std::string_view::npos;
+  constexpr std::array<std::string_view, 7> extensions = {".png", ".ply", ".mesh.ply", ".mesh.obj", ".mesh.glb", ".mesh.vtp", ".vtu"};
+  if (!name.starts_with(prefix)) return false;
+  name.remove_prefix(prefix.size());
+  const size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  return digits >= 5 && std::ranges::find(extensions, name.substr(digits)) != extensions.end();
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace rill::capture {
 class OutputFolder {
  public:
   /// Creates and locks the folder. Removes part files of frames, and unless `keep` (for --resume) the frames of an earlier
-  /// capture, frame_NNNNN.png and .ply. Other files stay.
+  /// capture, frame_NNNNN with the extension of an image or an export. Other files stay.
   static Expected<OutputFolder> prepare(const std::filesystem::path& folder, bool keep = false);
 
   /// DIR/NAME

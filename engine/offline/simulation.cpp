@@ -11,6 +11,7 @@
 #include "fluid/settings.hpp"
 #include "offline/advances.hpp"
 #include "offline/context.hpp"
+#include "offline/mesh_readout.hpp"
 #include "offline/painter.hpp"
 #include "offline/pass_log.hpp"
 #include "offline/probes.hpp"
@@ -131,6 +132,31 @@ class Simulation::Impl {
     return particles;
   }
 
+  Expected<SurfaceTriangles> mesh(double cell) {
+    if (auto measured = measure(); !measured) return measured.error();
+    SurfaceMesherDesc desc{.capacity = std::max(fluidCapacity(), 1u), .cell = cell};
+    MeshReadout made;
+    // A mesh that had no room says what it needs; where blocks had none, the second try knows the vertices.
+    for (int tries = 0; tries < 3; ++tries) {
+      if (!mesher_ || mesherCell_ != cell) {
+        meshGraph_ = Graph();
+        mesher_.reset();
+        auto created = SurfaceMesher::create(context_->device(), desc);
+        if (!created) return created.error();
+        mesher_.emplace(*std::move(created));
+        mesherCell_ = cell;
+      }
+      MeshTickets tickets;
+      auto ran = run(meshGraph_, [&](Graph& graph) { tickets = meshReadout(graph, mesher_->addTo(graph, fluid_->addTo(graph, {}))); });
+      if (!ran) return ran.error();
+      made = collect(meshGraph_, tickets, start_.origin);
+      if (fits(made.needed, mesher_->limits())) return std::move(made.triangles);
+      desc = roomFor(made.needed, mesher_->limits());
+      mesher_.reset();
+    }
+    return Error{ErrorKind::Failed, "making the mesh: its size is not what it was found to be"};
+  }
+
   Expected<std::vector<PoseValue>> poses() {
     if (auto measured = measure(); !measured) return measured.error();
     std::vector<PoseValue> all;
@@ -214,7 +240,8 @@ class Simulation::Impl {
   }
   std::vector<FrameMemory> transientMemory() const {
     std::vector<FrameMemory> all;
-    for (const auto& [frame, graph] : {std::pair{"advance", &advanceGraph_}, {"measure", &measureGraph_}, {"picture", &renderGraph_}})
+    for (const auto& [frame, graph] :
+         {std::pair{"advance", &advanceGraph_}, {"measure", &measureGraph_}, {"mesh", &meshGraph_}, {"picture", &renderGraph_}})
       if (const auto heaps = graph->transientHeaps(); !heaps.empty()) all.push_back({frame, {heaps.begin(), heaps.end()}});
     return all;
   }
@@ -376,6 +403,10 @@ class Simulation::Impl {
     return {};
   }
 
+  uint32_t fluidCapacity() const {
+    return static_cast<uint32_t>(std::max<uint64_t>(capacityOf(scene_, start_.positions.size()), start_.positions.size()));
+  }
+
   /// Measures statistics and reads particles back, once per time.
   Expected<void> measure() {
     if (measured_) return {};
@@ -406,7 +437,9 @@ class Simulation::Impl {
   std::optional<Fluid> fluid_;
   Painter painter_{scene_, start_, options_.orbit_degPerS};
   // One graph per kind of frame, so that each keeps its memory plan.
-  Graph advanceGraph_, measureGraph_, renderGraph_;
+  Graph advanceGraph_, measureGraph_, meshGraph_, renderGraph_;
+  std::optional<SurfaceMesher> mesher_;
+  double mesherCell_ = 0;  ///< spacings
   std::optional<Advances> advances_;
   PassLog log_;                         ///< since the last advance() began
   FluidProgress advanced_;              ///< of the last advance(), summed over its frames
@@ -462,6 +495,9 @@ Expected<void> Simulation::advance(double seconds) {
 double Simulation::time() const { return impl_->time(); }
 Expected<Particles> Simulation::particles(Order order) {
   return guarded("reading the particles", [&] { return impl_->particles(order); });
+}
+Expected<SurfaceTriangles> Simulation::mesh(double cell) {
+  return guarded("making the mesh", [&] { return impl_->mesh(cell); });
 }
 Expected<std::vector<PoseValue>> Simulation::poses() {
   return guarded("reading the poses", [&] { return impl_->poses(); });

@@ -85,7 +85,11 @@ TEST(CommandLine, ErrorsNameOptionAndExpectedValue) {
   for (const char* bad : {"0", "-60", "nan", "inf", "60x"}) expectRefused({"scene.json", "--fps", bad}, {"--fps", "expected a number"});
   for (const char* bad : {"640", "640x", "x480", "640x480x2", "0x480", "640*480", "9000x10", "8192x8192"})
     expectRefused({"scene.json", "--size", bad}, {"--size", "as 1280x720"});
-  expectRefused({"scene.json", "--export", "obj"}, {"--export", "expected ply or poses"});
+  expectRefused({"scene.json", "--export", "obj"}, {"--export", "expected ply, mesh, vtk or poses"});
+  expectRefused({"scene.json", "--export", "mesh", "--mesh-format", "stl"}, {"--mesh-format", "\"stl\"", "ply, obj, glb or vtp"});
+  expectRefused({"scene.json", "--export", "mesh", "--mesh-cell", "0.1"}, {"--mesh-cell", "0.1", "0.25 to 1"});
+  expectRefused({"scene.json", "--mesh-cell", "0.5"}, {"--mesh-cell", "needs --export mesh"});
+  expectRefused({"scene.json", "--export", "ply", "--mesh-format", "ply"}, {"--mesh-format", "needs --export mesh"});
   for (const char* bad : {"0", "-5", "1e4", "many"})
     expectRefused({"scene.json", "--particles", bad}, {"--particles", "expected a whole number"});
   expectRefused({"scene.json", "--set", "fluid.viscosity"}, {"--set", "fluid.viscosity"});

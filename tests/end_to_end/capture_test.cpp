@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "rill/mesh.hpp"
+#include "rill/particles.hpp"
 #include "rill/scene_io.hpp"
 #include "support/small_dam.hpp"
 
@@ -97,6 +100,38 @@ TEST_F(CaptureTest, WritesPosesOfSolids) {
   EXPECT_TRUE(lines[6].starts_with("2,0.2,1,,0.6,0.90000")) << lines[6];
   const std::string place = lines[5].substr(lines[5].find("\",") + 2);
   EXPECT_NEAR(std::stod(place.substr(place.find(',') + 1)), 0.85 - 0.5 * 9.81 * 0.04, 0.01) << "the crate falls: " << lines[5];
+}
+
+TEST_F(CaptureTest, WritesSurfacesAndVtkFiles) {
+  const auto write = [&](const char* out) {
+    return run(
+        {"--frames", "2", "--fps", "10", "--no-images", "--export", "mesh", "--export", "vtk", "--mesh-format", "vtp", "--out", out});
+  };
+  const Outcome first = write("a");
+  ASSERT_EQ(first.code, 0) << first.err;
+  ASSERT_EQ(write("b").code, 0);
+  EXPECT_EQ(TemporaryFolder::namesIn(folder / "a"),
+            (std::vector<std::string>{"frame_00000.mesh.vtp", "frame_00000.vtu", "frame_00001.mesh.vtp", "frame_00001.vtu", "mesh.pvd",
+                                      "particles.pvd"}));
+  for (const std::string& name : TemporaryFolder::namesIn(folder / "a"))
+    EXPECT_TRUE(contentOf(folder / "a" / name) == contentOf(folder / "b" / name)) << name;
+  EXPECT_NE(contentOf(folder / "a/mesh.pvd").find("<DataSet timestep=\"0.1\" part=\"0\" file=\"frame_00001.mesh.vtp\"/>"),
+            std::string::npos);
+  EXPECT_NE(contentOf(folder / "a/particles.pvd").find("file=\"frame_00001.vtu\""), std::string::npos);
+}
+
+TEST_F(CaptureTest, SurfaceIsTheClosedMeshOfASolid) {
+  ASSERT_EQ(run({"--frames", "1", "--no-images", "--export", "mesh", "--mesh-format", "glb", "--out", "."}).code, 0);
+  std::ofstream(folder / "tank.json") << R"({"rill": "0.2", "domain": {"min": [-1, -1, -1], "max": [3, 3, 3]}, "fluid": {"spacing": 0.1},
+    "solids": [{"mesh": {"file": "frame_00000.mesh.glb"}}]})";
+  const auto read = loadScene(folder / "tank.json");
+  ASSERT_TRUE(read) << read.error().message;
+  const auto start = loadScene(scene);
+  ASSERT_TRUE(start) << start.error().message;
+  const auto particles = makeParticles(*start);
+  ASSERT_TRUE(particles);
+  const double fluid = double(particles->positions.size()) * std::pow(particles->spacing, 3);
+  EXPECT_NEAR(std::get<MeshShape>(read->solids.at(0).shape).mesh->volume(), fluid, 0.015 * fluid);  // edges are round
 }
 
 TEST_F(CaptureTest, ExplainListsRunAndSkippedPasses) {

@@ -4,6 +4,7 @@
 #include <rill/offline.hpp>
 #include <rill/pipeline.hpp>
 #include <rill/scene_io.hpp>
+#include <rill/surface_mesher.hpp>
 
 void describe() {
   (void)rill::HostDevice{.queueFamily = 1};
@@ -19,6 +20,7 @@ void describe() {
   (void)rill::FluidView{.width = 640};
   (void)rill::FluidLook{.opaque = true};
   (void)rill::TargetFormats{.color = VK_FORMAT_R8G8B8A8_SRGB};
+  (void)rill::SurfaceMesherDesc{.cell = 0.25};
   (void)rill::EnvironmentPicture{.width = 4};
   (void)rill::Fill{.jitter = 0.1};
   (void)rill::Solid{.friction = 0.1};

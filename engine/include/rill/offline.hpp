@@ -51,6 +51,16 @@ struct Particles {
   std::vector<uint32_t> ids = {};       ///< index in the initial particles: the order of the fills
 };
 
+/// The surface of the fluid at one time as a closed triangle mesh; see rill/surface_mesher.hpp.
+struct SurfaceTriangles {
+  std::vector<Float3> positions = {};   ///< of vertices, m, scene coordinates
+  std::vector<Float3> normals = {};     ///< of vertices, unit length, out of the fluid
+  std::vector<Float3> velocities = {};  ///< of vertices, m/s
+  std::vector<uint32_t> indices = {};   ///< of vertices, three a triangle, counter-clockwise seen from outside
+  uint64_t tooFar = 0;                  ///< particles left out because they are too far from the others
+  uint64_t boundHits = 0;               ///< sums over particles that were cut off: too many lie at one place
+};
+
 /// An image: RGBA, 8 bits per channel, sRGB, top row first.
 struct Image {
   uint32_t width = 0, height = 0;
@@ -165,6 +175,9 @@ class Simulation {
   double time() const;  ///< simulated time, s
   /// The particles at the current time. Errors as advance().
   Expected<Particles> particles(Order order = Order::ById);
+  /// The surface of the fluid at the current time. `cell`: side of the grid's cells in spacings, 0.25 to 1. BadInput for another one;
+  /// TooLarge for a mesh that the device has no room for; other errors as advance().
+  Expected<SurfaceTriangles> mesh(double cell = 0.5);
   /// Where each solid of the scene is at the current time: its center, or a mesh's origin. Errors as advance().
   Expected<std::vector<PoseValue>> poses();
   Expected<Stats> stats();  ///< statistics at the current time, measured at the first call; errors as advance()

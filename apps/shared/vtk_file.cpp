@@ -1,0 +1,92 @@
+#include "shared/vtk_file.hpp"
+
+#include <cassert>
+#include <cstdint>
+#include <numeric>
+
+#include "core/words.hpp"
+#include "shared/file_bytes.hpp"
+
+namespace rill::apps {
+namespace {
+
+/// The arrays of a file: described in its XML, and behind it as bytes, each after its length.
+class VtkArrays {
+ public:
+  template <class T>
+  std::string add(const char* type, const char* name, int components, const std::vector<T>& values) {
+    const std::string element = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                                std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(size_) + "\"/>\n";
+    const uint64_t bytes = values.size() * sizeof(T);
+    data_.value(bytes);
+    data_.values(values);
+    size_ += sizeof bytes + bytes;
+    return element;
+  }
+
+  /// `grid`: its kind; `piece`: the attributes and elements of its piece.
+  std::vector<std::byte> file(const std::string& grid, double time_s, const std::string& piece) {
+    std::string head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + grid +
+                       "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + grid + ">\n";
+    const std::string time = add("Float64", "TimeValue", 1, std::vector<double>{time_s});
+    std::string tuple = time;
+    tuple.insert(tuple.find(" NumberOfComponents"), " NumberOfTuples=\"1\"");
+    head += "<FieldData>\n" + tuple + "</FieldData>\n" + piece + "</" + grid + ">\n<AppendedData encoding=\"raw\">\n_";
+    FileBytes all;
+    all.text(head);
+    all.values(data_.take());
+    all.text("\n</AppendedData>\n</VTKFile>\n");
+    return all.take();
+  }
+
+ private:
+  FileBytes data_;
+  uint64_t size_ = 0;
+};
+
+std::vector<int64_t> counting(size_t count, int64_t step) {
+  std::vector<int64_t> all(count);
+  for (size_t k = 0; k < count; ++k) all[k] = step * (int64_t(k) + 1);
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::byte> encodeVtp(const offline::SurfaceTriangles& mesh, double time_s) {
+  VtkArrays arrays;
+  const size_t triangles = mesh.indices.size() / 3;
+  std::string piece = "<Piece NumberOfPoints=\"" + std::to_string(mesh.positions.size()) +
+                      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(triangles) +
+                      "\">\n";
+  piece += "<PointData Normals=\"Normals\" Vectors=\"velocity\">\n" + arrays.add("Float32", "Normals", 3, mesh.normals) +
+           arrays.add("Float32", "velocity", 3, mesh.velocities) + "</PointData>\n";
+  piece += "<Points>\n" + arrays.add("Float32", "Points", 3, mesh.positions) + "</Points>\n";
+  piece += "<Polys>\n" + arrays.add("Int64", "connectivity", 1, std::vector<int64_t>(mesh.indices.begin(), mesh.indices.end())) +
+           arrays.add("Int64", "offsets", 1, counting(triangles, 3)) + "</Polys>\n</Piece>\n";
+  return arrays.file("PolyData", time_s, piece);
+}
+
+std::vector<std::byte> encodeVtu(const offline::Particles& particles, double time_s) {
+  VtkArrays arrays;
+  const size_t count = particles.positions.size();
+  assert(particles.velocities.size() == count && particles.densities.size() == count && particles.ids.size() == count);
+  const std::string number = std::to_string(count);
+  std::vector<int64_t> points(count);
+  std::iota(points.begin(), points.end(), int64_t{0});
+  std::string piece = "<Piece NumberOfPoints=\"" + number + "\" NumberOfCells=\"" + number + "\">\n";
+  piece += "<PointData Scalars=\"density\" Vectors=\"velocity\">\n" + arrays.add("Float32", "velocity", 3, particles.velocities) +
+           arrays.add("Float32", "density", 1, particles.densities) + arrays.add("UInt32", "id", 1, particles.ids) + "</PointData>\n";
+  piece += "<Points>\n" + arrays.add("Float32", "Points", 3, particles.positions) + "</Points>\n";
+  piece += "<Cells>\n" + arrays.add("Int64", "connectivity", 1, points) + arrays.add("Int64", "offsets", 1, counting(count, 1)) +
+           arrays.add("UInt8", "types", 1, std::vector<uint8_t>(count, 1)) + "</Cells>\n</Piece>\n";
+  return arrays.file("UnstructuredGrid", time_s, piece);
+}
+
+std::string encodePvd(std::span<const std::pair<double, std::string>> files) {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const auto& [time_s, file] : files)
+    text += "<DataSet timestep=\"" + shortestNumber(time_s) + "\" part=\"0\" file=\"" + file + "\"/>\n";
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+}  // namespace rill::apps

@@ -1,0 +1,20 @@
+#pragma once
+// XML files of VTK, as ParaView reads them.
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rill/offline.hpp"
+
+namespace rill::apps {
+
+/// A mesh as PolyData, with the arrays Normals and velocity (m/s) at points.
+std::vector<std::byte> encodeVtp(const offline::SurfaceTriangles& mesh, double time_s);
+/// Particles as an UnstructuredGrid of vertex cells, with the arrays velocity (m/s), density (kg/m^3) and id.
+std::vector<std::byte> encodeVtu(const offline::Particles& particles, double time_s);
+/// A .pvd file, which lists the files of a series with their times (s).
+std::string encodePvd(std::span<const std::pair<double, std::string>> files);
+
+}  // namespace rill::apps
