@@ -34,7 +34,7 @@ Cover coverOf(const Mouth& mouth, const Scene& scene, const InsideSolids& solids
   return cover;
 }
 
-std::string textOf(const Cover& cover, const Scene& scene) {
+std::string textOf(const Cover& cover, const Scene& scene, bool moves) {
   constexpr size_t kMaxNamed = 3;
   std::string where, until;
   size_t named = 0;
@@ -43,6 +43,7 @@ std::string textOf(const Cover& cover, const Scene& scene) {
     if (canMove(scene.solids[solid])) until = " until a solid moves away";
   }
   if (named > kMaxNamed) where += " and " + grouped(named - kMaxNamed) + " more solids";
+  if (moves) until = " until it moves away";
   if (cover.walls) where += std::string(where.empty() ? "" : " and ") + "outside the domain's walls";
   return "its mouth is " + where + "; it is blocked" + until;
 }
@@ -54,8 +55,10 @@ std::vector<std::string> blockedMouths(const Scene& scene, double spacing) {
   if (scene.emitters.empty()) return warnings;
   const InsideSolids solids(scene.solids, spacing);
   for (size_t i = 0; i < scene.emitters.size(); ++i) {
-    const Cover cover = coverOf(scene.emitters[i].mouth, scene, solids, spacing);
-    if (cover.walls || !cover.solids.empty()) warnings.push_back(elementPath("emitters", i) + ": " + textOf(cover, scene));
+    const Emitter& emitter = scene.emitters[i];
+    const Cover cover = coverOf(mouthAt(emitter, 0), scene, solids, spacing);
+    if (cover.walls || !cover.solids.empty())
+      warnings.push_back(elementPath("emitters", i) + ": " + textOf(cover, scene, emitter.motion.size() > 1));
   }
   return warnings;
 }

@@ -50,6 +50,33 @@ Double3 centerOf(const Mouth& mouth) {
 
 double flowOf(const Emitter& emitter) { return emitter.flow > 0 ? emitter.flow : emitter.speed * areaOf(emitter.mouth); }
 
+Pose mouthPose(const Emitter& emitter, double t) { return keyframedPose(emitter.motion, centerOf(emitter.mouth), {0, 0, 0, 1}, t); }
+
+Mouth mouthAt(const Emitter& emitter, double t) {
+  const Pose pose = mouthPose(emitter, t);
+  return std::visit(Overloaded{[&](DiscMouth disc) -> Mouth {
+                                 disc.center = pose.center, disc.normal = toScene(pose, disc.normal);
+                                 return disc;
+                               },
+                               [&](RectMouth rect) -> Mouth {
+                                 rect.center = pose.center, rect.normal = toScene(pose, rect.normal), rect.up = toScene(pose, rect.up);
+                                 return rect;
+                               }},
+                    emitter.mouth);
+}
+
+double fastestMouth(const Emitter& emitter) {
+  const double radius = std::visit(Overloaded{[](const DiscMouth& disc) { return disc.radius; },
+                                              [](const RectMouth& rect) { return std::hypot(rect.size.first, rect.size.second) / 2; }},
+                                   emitter.mouth);
+  double fastest = 0;
+  for (size_t k = 1; k < emitter.motion.size(); ++k) {
+    const Pose pose = mouthPose(emitter, emitter.motion[k - 1].at);
+    fastest = std::max(fastest, length(pose.velocity) + radius * length(pose.angularVelocity));
+  }
+  return fastest;
+}
+
 // The first layer's centers are half a spacing off the wall.
 std::vector<Emitter> emittersOf(const Scene& scene) {
   std::vector<Emitter> all = scene.emitters;

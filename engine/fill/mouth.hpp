@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rill/scene.hpp"
+#include "shape/pose.hpp"
 
 namespace rill {
 
@@ -12,6 +13,13 @@ double areaOf(const Mouth& mouth);
 Double3 centerOf(const Mouth& mouth);
 /// m^3/s, from `flow` or `speed`.
 double flowOf(const Emitter& emitter);
+
+/// The mouth's frame at `t` (s); without motion its axes are those of the scene.
+Pose mouthPose(const Emitter& emitter, double t);
+/// The mouth as its motion leaves it at `t` (s).
+Mouth mouthAt(const Emitter& emitter, double t);
+/// Bounds the speed of every point of the mouth over its motion, m/s; 0 without motion.
+double fastestMouth(const Emitter& emitter);
 
 /// The scene's emitters, then that of the domain's inflow.
 std::vector<Emitter> emittersOf(const Scene& scene);

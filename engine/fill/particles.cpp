@@ -288,7 +288,7 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
 
   if (all.empty()) {
     for (const Emitter& emitter : scene.emitters) {
-      const Double3 p = centerOf(emitter.mouth);
+      const Double3 p = mouthPose(emitter, 0).center;
       all.add(p.x, p.y, p.z);
     }
   }

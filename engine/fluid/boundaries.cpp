@@ -177,7 +177,7 @@ Expected<void> addSolids(const Scene& scene, const SmoothingKernel& kernel, cons
     record.friction = f(solid.friction);
     record.restitution = f(solid.restitution);
     record.noSlip = sticks(scene, solid) ? 1 : 0;
-    std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);
+    std::vector<KeyframeRecord> keyframes = keyframeRecords(solid.motion);
     if (solid.driven > 0) {
       record.driven = 1;
       const auto still = drivenKeyframes(record.pose, record.pose, 0);

@@ -1,12 +1,15 @@
 #include "fluid/flows.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/vector_math.hpp"
 #include "core/words.hpp"
 #include "fill/mouth.hpp"
 #include "fluid/numbers.hpp"
+#include "shape/records.hpp"
 
 namespace rill {
 namespace {
@@ -59,14 +62,30 @@ Expected<void> checkEmitter(const Scene& scene, const Emitter& emitter, const st
   if (!(points + static_cast<double>(setup.mouthPoints.size()) <= kMaxPoints))
     return bad("its mouth takes " + roundedNumber(points) + " particles of fluid.spacing a layer; expected at most, of all emitters, " +
                grouped(static_cast<uint64_t>(kMaxPoints)));
-  const double speed = flowOf(emitter) / area;
+  const double speed = flowOf(emitter) / area, own = fastestMouth(emitter);
   if (!(speed <= kMaxSpeed))
     return bad("fluid leaves its mouth at " + roundedNumber(speed) + " m/s; expected at most " + roundedNumber(kMaxSpeed) + " m/s");
-  if (const double most = fastestFollowed(scene); speed > most)
+  if (!(own <= kMaxSpeed))
+    return bad("its mouth moves at " + roundedNumber(own) + " m/s; expected at most " + roundedNumber(kMaxSpeed) + " m/s");
+  const double most = fastestFollowed(scene);
+  if (own > most)
+    setup.warnings.push_back(key + ": its mouth moves at " + roundedNumber(own) + " m/s; expected at most " + roundedNumber(most) +
+                             " m/s, which solver.cfl and solver.max_substeps can follow: time is dropped");
+  if (speed > most)
     setup.warnings.push_back(key + ": fluid leaves its mouth at " + roundedNumber(speed) + " m/s; expected at most " + roundedNumber(most) +
                              " m/s, a flow of " + roundedNumber(most * area) +
                              " m^3/s, which solver.cfl and solver.max_substeps can follow: time is dropped");
   return {};
+}
+
+void addMotion(const Emitter& emitter, EmitterRecord& record, std::vector<float>& keyframes) {
+  record.firstKey = static_cast<uint32_t>(keyframes.size() / kKeyframeNumbers);
+  record.keyCount = static_cast<uint32_t>(emitter.motion.size());
+  record.motionSpeed = f(fastestMouth(emitter));
+  for (const KeyframeRecord& key : keyframeRecords(emitter.motion)) {
+    const auto numbers = std::bit_cast<std::array<float, kKeyframeNumbers>>(key);
+    keyframes.insert(keyframes.end(), numbers.begin(), numbers.end());
+  }
 }
 
 DrainRecord recordOf(const Drain& drain, const Double3& origin) {
@@ -105,7 +124,8 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing) {
 
 double fastestEmitter(const Scene& scene) {
   double fastest = 0;
-  for (const Emitter& emitter : emittersOf(scene)) fastest = std::max(fastest, flowOf(emitter) / areaOf(emitter.mouth));
+  for (const Emitter& emitter : emittersOf(scene))
+    fastest = std::max(fastest, flowOf(emitter) / areaOf(emitter.mouth) + fastestMouth(emitter));
   return fastest;
 }
 
@@ -141,6 +161,7 @@ Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& s
     r.points = static_cast<uint32_t>(lattice.points.size());
     r.isDisc = std::holds_alternative<DiscMouth>(emitter.mouth) ? 1 : 0;
     r.phase = kHalfLayer;
+    addMotion(emitter, r, setup.keyframes);
     setup.mouthPoints.insert(setup.mouthPoints.end(), lattice.points.begin(), lattice.points.end());
     setup.emitters.push_back(r);
     setup.mouthSizes.push_back({lattice.area, lattice.thickness});

@@ -24,7 +24,7 @@ MouthLattice mouthLattice(const Mouth& mouth, double spacing);
 /// Warns of speeds that the steps cannot follow.
 Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup);
 
-/// m/s, of the fluid in the mouths.
+/// m/s, of the fluid in the mouths, their motion included.
 double fastestEmitter(const Scene& scene);
 
 /// What a host may change of an emitter while it runs: the words of its record before `from`. `center`: m, relative to the particles'

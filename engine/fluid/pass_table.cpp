@@ -1,10 +1,14 @@
 #include "fluid/pass_table.hpp"
 
+#include <algorithm>
+
 namespace rill {
 namespace {
 
 bool solids(const FluidSetup& s) { return s.params.solidCount > 0; }
-bool moves(const FluidSetup& s) { return !s.keyframes.empty(); }
+bool moves(const FluidSetup& s) {
+  return std::ranges::any_of(s.solids, [](const SolidRecord& solid) { return solid.keyCount > 0; });
+}
 bool bodies(const FluidSetup& s) { return !s.bodies.empty(); }
 bool loads(const FluidSetup& s) { return s.loads; }
 bool probesPressure(const FluidSetup& s) { return !s.pressureProbes.empty(); }

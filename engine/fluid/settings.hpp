@@ -64,7 +64,7 @@ struct FluidSetup {
   std::vector<MouthSize> mouthSizes;                     ///< of the emitters
   std::vector<DrainRecord> drains;                       ///< in the order of the scene's
   std::vector<uint32_t> meshWords;                       ///< the fields of all meshes (mesh_field.h)
-  std::vector<float> keyframes;                          ///< KeyframeRecords
+  std::vector<float> keyframes;                          ///< KeyframeRecords, of solids, then of emitters
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
   std::vector<float> gravity;                            ///< the schedule: value and time, four floats each; the scene's own first
   uint32_t kernel = 0;                                   ///< specialization constant KERNEL

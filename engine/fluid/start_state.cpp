@@ -139,6 +139,7 @@ void FluidImpl::resumeFlows(const FluidSnapshot& s) {
     next(saved);
     saved.from = emitter.from, saved.until = emitter.until;
     saved.firstPoint = emitter.firstPoint, saved.points = emitter.points, saved.isDisc = emitter.isDisc;
+    saved.firstKey = emitter.firstKey, saved.keyCount = emitter.keyCount, saved.motionSpeed = emitter.motionSpeed;
     emitter = saved;
   }
   for (DrainRecord& drain : setup.drains) {

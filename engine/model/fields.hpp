@@ -117,7 +117,7 @@ struct Table<Fill> {
 
 template <>
 struct Table<Keyframe> {
-  static constexpr std::string_view about = "Displacement of a solid at a time";
+  static constexpr std::string_view about = "Displacement of a solid or a mouth at a time";
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "at", .unit = "s", .range = atLeast(0), .help = "time; later than the previous entry's"}, &Keyframe::at},

@@ -50,7 +50,12 @@ struct Table<Emitter> {
                  .range = above(0),
                  .help = "time of its end, later than from; without it, it has none",
                  .unset = ""},
-            &Emitter::until}};
+            &Emitter::until},
+      Field{
+          Info{.key = "motion",
+               .help = "keyframes of the mouth in order of time; linear between them, constant before the first and after the last. Fluid "
+                       "leaves with the mouth's velocity in addition to its own"},
+          &Emitter::motion}};
 };
 
 template <>

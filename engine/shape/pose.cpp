@@ -40,8 +40,7 @@ struct Displacement {
   Double3 velocity = {}, angularVelocity = {};
 };
 
-Displacement displacementAt(const Solid& solid, double t) {
-  const auto& motion = solid.motion;
+Displacement displacementAt(const std::vector<Keyframe>& motion, double t) {
   if (motion.empty()) return {};
   const auto next = std::upper_bound(motion.begin(), motion.end(), t, [](double time, const Keyframe& key) { return time < key.at; });
   const Keyframe& last = next == motion.begin() ? *next : *std::prev(next);
@@ -86,19 +85,20 @@ Quaternion normalized(const Quaternion& q) {
   return {q.x / length, q.y / length, q.z / length, q.w / length};
 }
 
-Pose solidPose(const Solid& solid, double t) {
-  const Displacement by = displacementAt(solid, t);
+Pose keyframedPose(const std::vector<Keyframe>& motion, const Double3& center, const Quaternion& rotation, double t) {
+  const Displacement by = displacementAt(motion, t);
   Pose pose{.center = by.translation,
-            .rotation = composed(by.rotation, solid.rotation),
+            .rotation = composed(by.rotation, rotation),
             .velocity = by.velocity,
             .angularVelocity = by.angularVelocity};
-  const Double3 center = centerOf(solid);
   for (size_t a = 0; a < 3; ++a) pose.center[a] += center[a];
   return pose;
 }
 
+Pose solidPose(const Solid& solid, double t) { return keyframedPose(solid.motion, centerOf(solid), solid.rotation, t); }
+
 Pose solidPose(const Solid& solid, double t, double dt) {
-  const Displacement from = displacementAt(solid, t), to = displacementAt(solid, t + dt);
+  const Displacement from = displacementAt(solid.motion, t), to = displacementAt(solid.motion, t + dt);
   Pose pose = solidPose(solid, t + dt);
   pose.velocity = over(minus(to.translation, from.translation), dt);
   pose.angularVelocity = over(turnBetween(from.rotation, to.rotation), dt);

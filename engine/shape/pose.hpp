@@ -22,8 +22,11 @@ Quaternion turned(const Quaternion& q, double share, const Double3& turn);
 /// Of unit length; `q` is finite and not zero.
 Quaternion normalized(const Quaternion& q);
 
-/// The pose at `t` (s): linear and spherical linear between keyframes, constant outside. The velocities are the slopes of the keyframes,
-/// right-continuous; 0 before the first and after the last.
+/// The pose at `t` (s) of what is at `center` (m) with `rotation` before any motion: linear and spherical linear between keyframes,
+/// constant outside. The velocities are the slopes of the keyframes, right-continuous; 0 before the first and after the last.
+Pose keyframedPose(const std::vector<Keyframe>& motion, const Double3& center, const Quaternion& rotation, double t);
+
+/// The pose of a solid at `t` (s).
 Pose solidPose(const Solid& solid, double t);
 
 /// The pose at `t + dt` with the mean velocities over [t, t + dt], also across keyframes. dt: s, > 0.

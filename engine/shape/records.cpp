@@ -35,10 +35,10 @@ PoseRecord baseRecord(const Solid& solid, const Double3& origin) {
   return recordOf(Pose{.center = centerOf(solid), .rotation = solid.rotation}, origin);
 }
 
-std::vector<KeyframeRecord> keyframeRecords(const Solid& solid) {
+std::vector<KeyframeRecord> keyframeRecords(const std::vector<Keyframe>& motion) {
   std::vector<KeyframeRecord> records;
-  for (size_t k = 0; k < solid.motion.size(); ++k) {
-    const Keyframe &key = solid.motion[k], &next = solid.motion[std::min(k + 1, solid.motion.size() - 1)];
+  for (size_t k = 0; k < motion.size(); ++k) {
+    const Keyframe &key = motion[k], &next = motion[std::min(k + 1, motion.size() - 1)];
     const Double3 turn = turnBetween(key.rotate, next.rotate);
     records.push_back({.x = f(key.translate[0]),
                        .y = f(key.translate[1]),

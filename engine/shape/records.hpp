@@ -20,8 +20,8 @@ PoseRecord baseRecord(const Solid& solid, const Double3& origin);
 Double3 centerOf(const PoseRecord& pose);
 Quaternion rotationOf(const PoseRecord& pose);
 
-/// A solid's motion.
-std::vector<KeyframeRecord> keyframeRecords(const Solid& solid);
+/// The motion of a solid or a mouth.
+std::vector<KeyframeRecord> keyframeRecords(const std::vector<Keyframe>& motion);
 
 /// A driven solid's motion in an advance of `seconds`.
 std::array<KeyframeRecord, 2> drivenKeyframes(const PoseRecord& from, const PoseRecord& to, double seconds);

@@ -88,7 +88,7 @@ void fillLight(SceneRecord& record, const Bounds& bounds, const Double3& origin,
 
 void fillSolids(ParticleScene& out, const Scene& scene) {
   for (const Solid& solid : scene.solids) {
-    const std::vector<KeyframeRecord> keyframes = keyframeRecords(solid);
+    const std::vector<KeyframeRecord> keyframes = keyframeRecords(solid.motion);
     out.solids.push_back({.base = baseRecord(solid, out.origin),
                           .shape = recordOf(solid.shape),
                           .radius = static_cast<float>(boundingRadius(solid.shape) + shellOf(solid.shape, scene.fluid.spacing)),

@@ -1,6 +1,7 @@
 #version 460
-// Births: the particles of the layers that are due, behind the others. Each has gone on from the mouth, in free fall, since its own time
-// within the substep. One whose place is in a solid or behind a wall is born inactive, and taken out by the sort that follows.
+// Births: the particles of the layers that are due, behind the others. Each has left the mouth where that was at its own time, with
+// the mouth's velocity in addition, and has gone on in free fall since. One whose place is in a solid or behind a wall is born inactive,
+// and taken out by the sort that follows.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"
@@ -17,9 +18,10 @@ layout(std430, binding = 9) writeonly buffer IdBlock { uint id[]; };
 layout(std430, binding = 10) readonly buffer SolidBlock { SolidRecord solids[]; };
 READ_UINT(11, meshWord)
 layout(std430, binding = 12) writeonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
+layout(std430, binding = 13) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
 #define MESH_WORDS
-#include "shared/pose.glsl"
 #include "shared/shape.glsl"
+#include "fluid/mouth_frame.glsl"
 
 bool insideSolid(vec3 x) {
   for (uint k = 0u; SOLIDS && k < params.solidCount; ++k) {
@@ -45,10 +47,9 @@ void main() {
   uint later = emitters[e].waiting + emitters[e].layers - 1u - k / points;  // layers that left after its own
   float age = emitters[e].age + float(later) * emitters[e].interval;
   vec2 place = mouthPoints[emitters[e].firstPoint + k % points];
-  vec3 v = emitters[e].speed * vec3(emitters[e].normalX, emitters[e].normalY, emitters[e].normalZ);
-  vec3 mouth = vec3(emitters[e].centerX, emitters[e].centerY, emitters[e].centerZ) +
-               place.x * vec3(emitters[e].acrossX, emitters[e].acrossY, emitters[e].acrossZ) +
-               place.y * vec3(emitters[e].upX, emitters[e].upY, emitters[e].upZ);
+  MouthFrame frame = mouthFrame(e, control.timeHigh + (control.timeLow - age));
+  vec3 mouth = centerOf(frame.pose) + place.x * frame.across + place.y * frame.up;
+  vec3 v = emitters[e].speed * frame.normal + velocityAt(frame.pose, mouth);
   vec3 x = mouth + age * (v + 0.5 * age * gravity());
   v += age * gravity();
   if (insideSolid(x)) x = mouth;  // it would have met the solid

@@ -1,6 +1,6 @@
 #version 460
 // Keeps fluid out of the place of the layer that leaves a mouth next, so that it is born without overlaps, under fluid too: the mouth is a
-// piston, whose face moves with the flow from where the last layer was born to where the next one will be.
+// piston, whose face moves with the flow from where the last layer was born to where the next one will be, and with the mouth.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"
@@ -11,6 +11,8 @@ layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) writeonly buffer PredictionBlock { vec4 prediction[]; };
 READ_FLOAT4(5, warmAcceleration)
 layout(std430, binding = 6) readonly buffer EmitterBlock { EmitterRecord emitters[]; };
+layout(std430, binding = 7) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
+#include "fluid/mouth_frame.glsl"
 
 // Whether the emitter is open now, and how far its layer has come, in layers.
 bool isOpen(uint e, out float phase) {
@@ -21,11 +23,8 @@ bool isOpen(uint e, out float phase) {
 }
 
 // The shortest displacement out of the piston; 0 if x is not in it.
-vec3 displacementOut(uint e, float phase, vec3 x) {
-  vec3 normal = vec3(emitters[e].normalX, emitters[e].normalY, emitters[e].normalZ);
-  vec3 across = vec3(emitters[e].acrossX, emitters[e].acrossY, emitters[e].acrossZ);
-  vec3 up = vec3(emitters[e].upX, emitters[e].upY, emitters[e].upZ);
-  vec3 from = x - vec3(emitters[e].centerX, emitters[e].centerY, emitters[e].centerZ);
+vec3 displacementOut(uint e, MouthFrame frame, float phase, vec3 x) {
+  vec3 normal = frame.normal, across = frame.across, up = frame.up, from = x - centerOf(frame.pose);
   float thickness = min(emitters[e].speed / emitters[e].rate, params.spacing);  // of a mouth of one particle it may be much more
   float along = dot(from, normal), forward = phase * thickness - along, backward = along + thickness;
   vec2 side = vec2(dot(from, across), dot(from, up)), limit = vec2(emitters[e].halfAcross, emitters[e].halfUp);
@@ -49,12 +48,13 @@ void main() {
   for (uint e = 0u; e < params.emitterCount; ++e) {
     float phase;
     if (!isOpen(e, phase)) continue;
-    vec3 out_ = displacementOut(e, phase, x);
+    MouthFrame frame = mouthFrame(e, control.timeHigh + control.timeLow);
+    vec3 out_ = displacementOut(e, frame, phase, x);
     float depth = length(out_);
     if (depth <= 1.0e-5 * params.spacing) continue;
-    vec3 direction = out_ / depth;
-    float face = max(dot(direction, vec3(emitters[e].normalX, emitters[e].normalY, emitters[e].normalZ)) * emitters[e].speed, 0.0);
-    x += direction * min(depth, 2.0 * emitters[e].speed * control.step);  // where it opens in fluid, at a bounded speed
+    vec3 direction = out_ / depth, own = velocityAt(frame.pose, x);
+    float face = max(dot(direction, frame.normal) * emitters[e].speed, 0.0) + dot(direction, own);
+    x += direction * min(depth, 2.0 * (emitters[e].speed + length(own)) * control.step);  // where it opens in fluid, at a bounded speed
     v += direction * max(face - dot(v, direction), 0.0);
     pushed = true;
   }

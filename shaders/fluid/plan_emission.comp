@@ -91,7 +91,7 @@ void main() {
     float open = account(e);
     if (had) blocked = max(blocked, open);
     bool opens = emitters[e].rate > 0.0 && since(emitters[e].until, 0.0) <= 0.0 && since(emitters[e].from, 0.0) + push.advance > 0.0;
-    if (opens) fastest = max(fastest, emitters[e].speed);
+    if (opens) fastest = max(fastest, emitters[e].speed + emitters[e].motionSpeed);
   }
   addBlockedTime(blocked);
   if (births) makeRoom();

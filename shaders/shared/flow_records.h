@@ -13,7 +13,7 @@ RILL_CONST uint kNoRoom = 1u;   // the capacity, or the ids, did not do for a wh
 RILL_CONST uint kCovered = 2u;  // a part of the mouth is in a solid or behind a wall
 
 struct EmitterRecord {
-  // What a host may change, first.
+  // What a host may change, first. Of a mouth that keyframes move, before its motion.
   float centerX, centerY, centerZ;  // m, of the mouth, relative to the particles' origin
   float speed;                      // m/s, of particles that leave
   float normalX, normalY, normalZ;  // unit vector, direction of the flow
@@ -24,6 +24,8 @@ struct EmitterRecord {
   float from, until;                // s
   uint firstPoint, points;          // of its layer, among the mouths' points
   uint isDisc;                      // 1: a disc
+  uint firstKey, keyCount;          // of its motion, entries of the keyframe buffer
+  float motionSpeed;                // m/s, at most, of the mouth's own motion
   // State.
   uint phase;                       // of the layer that leaves, in units of 2^-32
   uint due;                         // layers to be born at the next rebuilds

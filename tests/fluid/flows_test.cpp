@@ -42,13 +42,20 @@ Trial tank() {
 glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
 glm::dvec3 vec(const Float3& v) { return {v.x, v.y, v.z}; }
 
+/// By `angle` (rad) about a unit vector.
+Quaternion turn(const Double3& axis, double angle) {
+  const double s = std::sin(angle / 2);
+  return {s * axis.x, s * axis.y, s * axis.z, std::cos(angle / 2)};
+}
+
 reference::EmitterSettings settingsOf(const Emitter& emitter, double spacing) {
   const MouthLattice lattice = mouthLattice(emitter.mouth, spacing);
   const double speed = emitter.speed > 0 ? emitter.speed : emitter.flow / lattice.area;
-  reference::EmitterSettings s{.velocity = speed * vec(lattice.normal), .rate = speed / lattice.thickness, .from = emitter.from};
+  reference::EmitterSettings s{.center = vec(lattice.center), .velocity = speed * vec(lattice.normal), .rate = speed / lattice.thickness};
+  s.from = emitter.from;
   s.until = emitter.until.value_or(1e9);
-  for (const auto& [across, up] : lattice.points)
-    s.points.push_back(vec(lattice.center) + double{across} * vec(lattice.across) + double{up} * vec(lattice.up));
+  s.motion = emitter.motion;
+  for (const auto& [across, up] : lattice.points) s.points.push_back(double{across} * vec(lattice.across) + double{up} * vec(lattice.up));
   return s;
 }
 
@@ -133,6 +140,43 @@ TEST_F(FlowsTest, ParticlesFallFromTheirOwnTimes) {
   auto run = start(t);
   for (int frame = 0; frame < 18; ++frame) run->advance(1.0 / 60);
   expectBirths(t, *run, 0.05, 0.05);
+}
+
+// Waits, swings, turns while it swings, turns back, and rests. It does not follow what has left it.
+std::vector<Keyframe> swing() {
+  return {{.at = 0.05, .translate = {0.1, 0, 0}},
+          {.at = 0.15, .translate = {0, 0.2, 0}},
+          {.at = 0.3, .translate = {-0.1, 0, -0.3}, .rotate = turn({0, 0.6, 0.8}, 1.1)},
+          {.at = 0.36, .translate = {-0.1, 0, -0.3}, .rotate = turn({0, 0.6, 0.8}, 0.7)}};
+}
+
+// A jet of rest density in the frame of a mouth that moves evenly: nothing but its own time matters for a particle.
+TEST_F(FlowsTest, ParticlesLeaveMouthsThatMove) {
+  Trial t = space();
+  t.scene.emitters = {disc({0.1, 0.2, 0.3}, 0.15, {1, 2, -0.5}, 1.5)};
+  t.scene.emitters[0].motion = {{.at = 0.02}, {.at = 0.5, .translate = {0.6, -0.3, 0.4}}};
+  for (const double step : {1e-3, 2.7e-3, 8e-3})
+    for (const Gather gather : kGathers) {
+      SCOPED_TRACE(std::string(nameOf(gather)) + ", step " + std::to_string(step));
+      t.step = step;
+      t.gather = gather;
+      auto run = start(t);
+      for (int frame = 0; frame < 5; ++frame) run->advance(0.08);
+      expectBirths(t, *run, 2e-3, 2e-3);
+    }
+}
+
+TEST_F(FlowsTest, SingleParticlesLeaveMouthsThatTurn) {
+  Trial t = space();
+  t.scene.emitters = {disc({0, 0, 0}, 0.03, {1, 0, 0}, 4)};
+  t.scene.emitters[0].motion = swing();
+  for (const double step : {1e-3, 5e-3}) {
+    SCOPED_TRACE(step);
+    t.step = step;
+    auto run = start(t);
+    for (int frame = 0; frame < 8; ++frame) run->advance(0.05);
+    expectBirths(t, *run, 2e-3, 2e-3);
+  }
 }
 
 TEST_F(FlowsTest, FlowIsExactWhateverTheFrames) {
@@ -399,6 +443,7 @@ Trial busyTank() {
   t.scene.domain->open_removes = true;
   t.scene.solids = {ball({0.5, 0.3, 0.2}, 0.12)};
   t.scene.emitters = {disc({0.3, 0.8, 0.25}, 0.1, {0.3, -1, 0}, 1.3), disc({0.2, 0.2, 0.25}, 0.1, {1, 0, 0}, 0.4)};
+  t.scene.emitters[0].motion = {{.at = 0.01}, {.at = 0.2, .translate = {0.3, 0, 0}, .rotate = turn({0, 0, 1}, 0.6)}};
   t.scene.drains = {{.shape = BoxShape{{0.6, 0, 0}, {0.8, 0.1, 0.5}}}};
   std::vector<glm::dvec3> all;
   std::swap(all, t.x);

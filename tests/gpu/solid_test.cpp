@@ -44,7 +44,7 @@ class SolidGeometry : public GpuTest {
     std::vector<SolidRecord> records;
     std::vector<KeyframeRecord> keyframes;
     for (const Solid& solid : solids) {
-      const auto keys = keyframeRecords(solid);
+      const auto keys = keyframeRecords(solid.motion);
       SolidRecord record{};
       record.base = baseRecord(solid, kOrigin);
       record.shape = recordOf(solid.shape);

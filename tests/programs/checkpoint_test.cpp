@@ -248,7 +248,8 @@ constexpr const char* kFlows = R"({
   "rill": "0.2", "duration": 0.5,
   "domain": {"min": [0, 0, 0], "max": [0.6, 0.8, 0.6], "outflow": {"level": 0.1}},
   "fluid": {"spacing": 0.05, "capacity": 900},
-  "emitters": [{"name": "tap", "disc": {"center": [0.3, 0.7, 0.3], "radius": 0.12, "normal": [0, -1, 0]}, "flow": 0.2},
+  "emitters": [{"name": "tap", "disc": {"center": [0.3, 0.7, 0.3], "radius": 0.12, "normal": [0, -1, 0]}, "flow": 0.2,
+                "motion": [{"at": 0.1}, {"at": 0.4, "translate": [0.1, 0, -0.1], "rotate": [0.1, 0, 0.2, 0.97]}]},
                {"rect": {"center": [0.1, 0.1, 0.3], "size": [0.3, 0.15], "normal": [1, 0, 0]}, "speed": 0.5, "from": 0.2}],
   "drains": [{"name": "plug", "box": {"min": [0, 0, 0], "max": [0.2, 0.1, 0.6]}, "from": 0.1}],
   "probes": [{"name": "in", "flow": "tap"}, {"name": "out", "flow": "plug"}]

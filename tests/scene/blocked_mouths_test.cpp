@@ -50,6 +50,14 @@ TEST(BlockedMouths, OutsideClosedWalls) {
   EXPECT_EQ(warningsOf(s), Texts{});
 }
 
+TEST(BlockedMouths, StartWhereTheirMotionDoes) {
+  Scene s = tankWith({DiscMouth{.center = {0.75, 0.25, 0.5}, .radius = 0.2}});
+  s.emitters[0].motion = {{.at = 0}, {.at = 1, .translate = {1, 0, 0}}};
+  EXPECT_EQ(warningsOf(s), Texts{"dam: emitters[0]: its mouth is inside solids[0]; it is blocked until it moves away"});
+  s.emitters[0].motion = {{.at = 0, .translate = {0.75, 0, 0}}, {.at = 1}};
+  EXPECT_EQ(warningsOf(s), Texts{});
+}
+
 TEST(BlockedMouths, NameAllThatCoversThem) {
   const RectMouth wide{.center = {1.02, 0.25, 0.5}, .size = {0.5, 0.9}, .up = {1, 0, 0}};  // x from 0.57 to 1.47
   EXPECT_EQ(warningsOf(wide), Texts{});

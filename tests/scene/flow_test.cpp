@@ -25,7 +25,8 @@ void expectRefusals(const std::vector<Refusal>& refusals) {
 
 TEST(FlowScene, ReadsEveryKey) {
   const Scene s = scene(R"({"rill": "0.2", "fluid": {"spacing": 0.1, "capacity": 5000}, "domain": {"open": ["-y"], "open_removes": true},
-    "emitters": [{"name": "tap", "disc": {"center": [1, 2, 3], "radius": 0.5, "normal": [0, -2, 0]}, "flow": 0.25, "from": 1, "until": 2.5},
+    "emitters": [{"name": "tap", "disc": {"center": [1, 2, 3], "radius": 0.5, "normal": [0, -2, 0]}, "flow": 0.25, "from": 1, "until": 2.5,
+                  "motion": [{"at": 1}, {"at": 3, "translate": [1, 0, 2], "rotate": [0, 0, 2, 0]}]},
                  {"rect": {"center": [4, 5, 6], "size": [0.5, 0.25], "normal": [1, 0, 0], "up": [0, 3, 0]}, "speed": 2}],
     "drains": [{"name": "plug", "box": {"max": [1, 2, 3]}, "from": 0.5, "until": 9}, {"sphere": {"radius": 2}}],
     "probes": [{"name": "in", "flow": "tap"}, {"name": "out", "flow": "plug"}]})");
@@ -49,6 +50,11 @@ TEST(FlowScene, ReadsEveryKey) {
   EXPECT_EQ(rect.up, (Double3{0, 3, 0}));
   EXPECT_EQ(slot.speed, 2);
   EXPECT_EQ(slot.flow, 0);
+  EXPECT_TRUE(slot.motion.empty());
+  ASSERT_EQ(tap.motion.size(), 2U);
+  EXPECT_EQ(tap.motion[1].at, 3);
+  EXPECT_EQ(tap.motion[1].translate, (Double3{1, 0, 2}));
+  EXPECT_EQ(tap.motion[1].rotate, (Quaternion{0, 0, 1, 0})) << "normalized";
   EXPECT_FALSE(slot.until);
   ASSERT_EQ(s.drains.size(), 2U);
   EXPECT_EQ(s.drains[0].name, "plug");
@@ -107,6 +113,14 @@ TEST(FlowScene, RejectsEmittersNamingTheKey) {
       {emitter(R"("disc": {}, "flow": 1, "from": 2, "until": 2)"), "emitters[0].until: found 2 s, expected a time later than from, 2 s"},
       {emitter(R"("disc": {}, "flow": 1, "until": 0)"), "emitters[0].until: 0 is out of range; expected a number above 0 (s)"},
       {emitter(R"("disc": {}, "flow": 1, "until": "auto")"), "emitters[0].until: found the string \"auto\", expected a number above 0 (s)"},
+      {emitter(R"("disc": {}, "flow": 1, "motion": [{"at": 2}, {"at": 2}])"),
+       "emitters[0].motion[1].at: found 2 s after 2 s in the previous entry, expected increasing times"},
+      {emitter(R"("disc": {}, "flow": 1, "motion": [{"at": -1}])"),
+       "emitters[0].motion[0].at: -1 is out of range; expected a number of at least 0 (s)"},
+      {emitter(R"("disc": {}, "flow": 1, "motion": [{"at": 0, "rotate": [0, 0, 0, 0]}])"),
+       "emitters[0].motion[0].rotate: the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation"},
+      {emitter(R"("disc": {}, "flow": 1, "motion": [{"at": 0, "scale": 2}])"),
+       "emitters[0].motion[0].scale: unknown key; did you mean \"fill[].mesh.scale\"?"},
       {list("emitters", R"({"disc": {}, "flow": 1})", 257), "emitters: found 257 entries, expected at most 256"},
   });
   EXPECT_EQ(parseError(list("emitters", R"({"disc": {}, "flow": 1})", 256)), "accepted");

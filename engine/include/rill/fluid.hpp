@@ -132,8 +132,8 @@ struct BodyPull {
 struct EmitterTarget {
   uint32_t emitter = 0;                ///< index into Scene::emitters, behind them the inflow; its times `from` and `until` still apply
   double flow = 0;                     ///< m^3/s, >= 0; 0: closed
-  std::optional<Double3> center = {};  ///< of the mouth, m; none: it stays
-  std::optional<Double3> normal = {};  ///< direction of the flow, of any length above 0; none: it stays. The mouth turns the shorter way
+  std::optional<Double3> center = {};  ///< of the mouth, before its motion if keyframes move it, m; none: it stays
+  std::optional<Double3> normal = {};  ///< direction of the flow, likewise, of any length above 0; none: it stays. Turns the shorter way
 };
 
 /// Parameters of Fluid::addTo().

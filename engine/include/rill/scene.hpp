@@ -138,7 +138,7 @@ struct Fill {
   double jitter = 0;                   ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
 };
 
-/// Displacement of a solid at a time, relative to its initial pose.
+/// Displacement of a solid or a mouth at a time, relative to its initial pose.
 struct Keyframe {
   double at = 0;                     ///< s, later than the previous keyframe
   Double3 translate = {0, 0, 0};     ///< m
@@ -196,10 +196,11 @@ using Mouth = std::variant<DiscMouth, RectMouth>;
 struct Emitter {
   std::string name = {};  ///< unique among emitters and drains, or empty
   Mouth mouth = {};
-  double flow = 0;                   ///< m^3/s, > 0; 0 if `speed` is given
-  double speed = 0;                  ///< m/s, > 0: flow over the area of the mouth; 0 if `flow` is given
-  double from = 0;                   ///< s, >= 0
-  std::optional<double> until = {};  ///< s, later than `from`; empty: for ever
+  double flow = 0;                    ///< m^3/s, > 0; 0 if `speed` is given
+  double speed = 0;                   ///< m/s, > 0: flow over the area of the mouth; 0 if `flow` is given
+  double from = 0;                    ///< s, >= 0
+  std::optional<double> until = {};   ///< s, later than `from`; empty: for ever
+  std::vector<Keyframe> motion = {};  ///< of the mouth, about its center; fluid leaves with the mouth's velocity in addition to its own
 };
 
 /// A volume that removes the particles in it.
