@@ -145,7 +145,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
   const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
   targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);
-  if (fluid.capacity > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, renderer.last.pixels);
+  if (fluid.capacity > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, time_s, renderer.last.pixels);
   return finish_.addTo(graph, targets.color, width, height);
 }
 

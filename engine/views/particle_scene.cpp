@@ -8,6 +8,7 @@
 #include "shape/records.hpp"
 #include "views/bounds.hpp"
 #include "views/color_map.hpp"
+#include "views/flow_outlines.hpp"
 
 namespace rill {
 namespace {
@@ -152,6 +153,7 @@ ParticleScene particleScene(const Scene& scene, const ParticleSet& particles) {
   }
   fillLight(record, litBounds(scene, particles), out.origin, scene.fluid.spacing);
   fillSolids(out, scene);
+  out.lines = flowOutlines(scene, out.origin, out.keyframes);
   record.counts.x = static_cast<uint32_t>(out.solids.size());
   for (uint32_t k = 0; k < kColors; ++k) {
     const double t = k / (kColors - 1.0);

@@ -13,8 +13,9 @@ struct ParticleScene {
   particle_view::SceneRecord scene;
   std::vector<particle_view::SceneSolid> solids;
   std::vector<KeyframeRecord> keyframes;
-  double speed_max = 1;           ///< m/s at the speed map's end
-  double compression_max = 0.01;  ///< fraction at the compression map's end
+  std::vector<particle_view::LineRecord> lines;  ///< outlines of mouths and drains
+  double speed_max = 1;                          ///< m/s at the speed map's end
+  double compression_max = 0.01;                 ///< fraction at the compression map's end
 };
 
 ParticleScene particleScene(const Scene& scene, const ParticleSet& particles);

@@ -42,6 +42,7 @@ Expected<SceneBuffers> SceneBuffers::create(Device& device, ParticleScene host) 
   if (auto ok = keep(out.scene, upload<SceneRecord>(device, "view: scene", {&out.host.scene, 1})); !ok) return ok.error();
   if (auto ok = keep(out.solids, upload<particle_view::SceneSolid>(device, "view: solids", out.host.solids)); !ok) return ok.error();
   if (auto ok = keep(out.keyframes, upload<KeyframeRecord>(device, "view: keyframes", out.host.keyframes)); !ok) return ok.error();
+  if (auto ok = keep(out.lines, upload<particle_view::LineRecord>(device, "view: lines", out.host.lines)); !ok) return ok.error();
   ModulePipelines pipelines(device);
   out.poses = pipelines.make("views/particle_poses");
   out.drivenPoses = pipelines.make("views/particle_driven_poses");
@@ -53,9 +54,17 @@ BufferRef SceneBuffers::importScene(Graph& graph) const {
   return graph.import("view scene", {scene.handle(), 0, scene.size(), Use::Nothing, Use::Nothing});
 }
 
+BufferRef SceneBuffers::importLines(Graph& graph) const {
+  return graph.import("view lines", {lines.handle(), 0, lines.size(), Use::Nothing, Use::Nothing});
+}
+
+BufferRef SceneBuffers::importKeyframes(Graph& graph) const {
+  return graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::Nothing, Use::Nothing});
+}
+
 BufferRef SceneBuffers::addPoses(Graph& graph, const FluidState& fluid, BufferRef sceneRef, const ViewPush& push) const {
   const BufferRef solidRecords = graph.import("view solids", {solids.handle(), 0, solids.size(), Use::Nothing, Use::Nothing});
-  const BufferRef keys = graph.import("view keyframes", {keyframes.handle(), 0, keyframes.size(), Use::Nothing, Use::Nothing});
+  const BufferRef keys = importKeyframes(graph);
   BufferRef out = graph.create("view poses", {host.solids.size() * sizeof(PlacedSolid)});
   const bool driven = fluid.solids != BufferRef{};
   addDispatch(graph, "view poses", driven ? drivenPoses : poses, divideUp(host.solids.size(), kParticleGroup), push,

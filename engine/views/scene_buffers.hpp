@@ -14,11 +14,13 @@ struct SceneBuffers {
   static Expected<SceneBuffers> create(Device& device, ParticleScene host);
 
   BufferRef importScene(Graph& graph) const;
+  BufferRef importLines(Graph& graph) const;
+  BufferRef importKeyframes(Graph& graph) const;
   /// PlacedSolids (there are some) at the push's time, seen with its camera; of driven ones as `fluid` has them.
   BufferRef addPoses(Graph& graph, const FluidState& fluid, BufferRef scene, const particle_view::ViewPush& push) const;
 
   ParticleScene host;
-  Buffer scene, solids, keyframes;
+  Buffer scene, solids, keyframes, lines;
   const ComputePipeline *poses = nullptr, *drivenPoses = nullptr;
 };
 

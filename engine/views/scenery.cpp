@@ -90,6 +90,13 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   GraphicsPipelineDesc over = edges;
   over.fragment = "views/scenery_edges_over_fluid_fragment";
   std::vector<Wanted> all{{out->ground_, ground}, {out->edges_, edges}, {out->edgesOverFluid_, over}};
+  if (!out->buffers_.host.lines.empty()) {
+    GraphicsPipelineDesc lines = edges, linesOver = over;
+    lines.vertex = linesOver.vertex = "views/scenery_lines_vertex";
+    linesOver.fragment = "views/scenery_lines_over_fluid_fragment";
+    all.push_back({out->lines_, lines});
+    all.push_back({out->linesOverFluid_, linesOver});
+  }
   GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment");
   light.colors = {};
   light.depth = kShadowFormat;
@@ -223,6 +230,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
     return [kernel, camera](Commands& commands) { commands.draw(kernel, 3, 1, camera); };
   });
   if (solids) addSolids(graph, targets, camera, lit);
+  addLines(graph, "scenery outlines", targets, lines_, camera, time_s);
   if (!hasEdges()) return targets;
   graph.pass("scenery edges", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget);
@@ -233,7 +241,28 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   return targets;
 }
 
-SceneTargets Scenery::addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, BufferRef pixels) const {
+// Outlines of mouths and drains. `pixels`: as of addEdgesOverFluid(), where the pipeline reads them.
+void Scenery::addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,
+                       const SurfacePush& camera, double time_s, BufferRef pixels) const {
+  if (buffers_.host.lines.empty()) return;
+  struct LinePush {
+    SurfacePush view;
+    float time;
+  };
+  const BufferRef lines = buffers_.importLines(graph), keyframes = buffers_.importKeyframes(graph);
+  graph.pass(name, [&](Pass& pass) {
+    targets.color = pass.write(targets.color, Use::ColorTarget);
+    targets.depth = pass.write(targets.depth, Use::DepthTarget);
+    const Kernel kernel = bindNamed(pass, pipeline, {{"lines", lines}, {"keyframes", keyframes}, {"surface", pixels}});
+    const auto count = static_cast<uint32_t>(buffers_.host.lines.size());
+    return [kernel, count, push = LinePush{camera, static_cast<float>(time_s)}](Commands& commands) {
+      commands.draw(kernel, kEdgeVertices, count, push);
+    };
+  });
+}
+
+SceneTargets Scenery::addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, double time_s, BufferRef pixels) const {
+  addLines(graph, "scenery outlines over fluid", targets, linesOverFluid_, viewPush(view, buffers_.host.origin), time_s, pixels);
   if (!hasEdges()) return targets;
   const BufferRef scene = buffers_.importScene(graph);
   graph.pass("scenery edges over fluid", [&](Pass& pass) {

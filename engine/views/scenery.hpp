@@ -1,5 +1,6 @@
 #pragma once
-// What stands around the fluid: sky, floor, solids and the domain's edges, drawn as graphics passes with shadows of solids and fluid.
+// What stands around the fluid: sky, floor, solids, the domain's edges, outlines of mouths and drains, drawn as graphics passes with
+// shadows of solids and fluid.
 #include <memory>
 
 #include "graph/shader_pass.hpp"
@@ -27,8 +28,8 @@ class Scenery {
   /// `texels`: of the environment, where there is one.
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
                      double time_s, BufferRef texels = {}) const;
-  /// The edges that lie before the fluid, once it has been drawn: `pixels` are SurfaceBuffers::pixels of the whole picture.
-  SceneTargets addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, BufferRef pixels) const;
+  /// The edges and outlines that lie before the fluid, once it has been drawn: `pixels` are SurfaceBuffers::pixels of the whole picture.
+  SceneTargets addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, double time_s, BufferRef pixels) const;
 
   Float3 toSun() const;
 
@@ -38,6 +39,8 @@ class Scenery {
   bool hasEdges() const { return buffers_.host.scene.domain_min.w > 0; }
 
   ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
+  void addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,
+                const surface::SurfacePush& camera, double time_s, BufferRef pixels = {}) const;
   void addSolids(Graph& graph, SceneTargets& targets, const surface::SurfacePush& camera, std::span<const Named> lit) const;
   bool hasMeshes() const { return !meshes_.empty(); }
 
@@ -47,6 +50,7 @@ class Scenery {
   bool hasRayCast_ = false;  ///< there are solids that are not drawn as triangles
   SurfaceStage stage_;
   const GraphicsPipeline *ground_ = nullptr, *solid_ = nullptr, *solidLight_ = nullptr, *edges_ = nullptr, *edgesOverFluid_ = nullptr;
+  const GraphicsPipeline *lines_ = nullptr, *linesOverFluid_ = nullptr;
   const GraphicsPipeline *mesh_ = nullptr, *meshLight_ = nullptr;
 };
 

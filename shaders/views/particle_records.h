@@ -93,6 +93,15 @@ struct SceneSolid {
   uint driven;              // 1: the host moves it
 };
 
+// A line in a frame that keyframes may move.
+struct LineRecord {
+  float fromX, fromY, fromZ;  // m, relative to the frame's center
+  uint firstKey;              // entry of the keyframe buffer
+  float toX, toY, toZ;
+  uint keyCount;
+  float centerX, centerY, centerZ;  // before any motion
+};
+
 // A solid at the frame's time.
 struct PlacedSolid {
   PoseRecord pose;

@@ -1,9 +1,9 @@
 #version 460
-// A line's coverage; OVER_FLUID: only where fluid is, whose surface has hidden the line.
+// A line's coverage; OVER_FLUID, the binding of the surface: only where fluid is, whose surface has hidden the line.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #ifdef OVER_FLUID
-layout(std430, set = 0, binding = 1) readonly buffer Surface { uvec2 surface[]; };
+layout(std430, set = 0, binding = OVER_FLUID) readonly buffer Surface { uvec2 surface[]; };
 #endif
 layout(location = 0) in float across;
 layout(location = 1) flat in float half_width;

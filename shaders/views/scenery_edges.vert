@@ -1,22 +1,48 @@
 #version 460
-// The domain's edges as lines of constant width.
+// The domain's edges, or LINES of a buffer, as lines of constant width.
 #extension GL_GOOGLE_include_directive : require
+#ifdef LINES
+#define RILL_PUSH_MORE float time;
+#endif
 #include "render/surface.glsl"
 #include "views/particle_records.h"
 
+#ifdef LINES
+layout(std430, set = 0, binding = 0) readonly buffer Lines { LineRecord lines[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Keyframes { KeyframeRecord keyframes[]; };
+#include "shared/keyframes.glsl"
+#else
 layout(std140, set = 0, binding = 0) uniform Scene { SceneRecord scene; };
+#endif
 layout(location = 0) out float across;  // pixels from the line's middle
 layout(location = 1) flat out float half_width;
 
-void main() {
+#ifdef LINES
+void lineEnds(out vec3 a, out vec3 b) {
+  const LineRecord line = lines[gl_InstanceIndex];
+  const PoseRecord base = poseOf(vec3(line.centerX, line.centerY, line.centerZ), vec4(0.0, 0.0, 0.0, 1.0), vec3(0.0), vec3(0.0));
+  const PoseRecord pose = keyframedPose(base, line.firstKey, line.keyCount, time);
+  a = centerOf(pose) + toScene(pose, vec3(line.fromX, line.fromY, line.fromZ));
+  b = centerOf(pose) + toScene(pose, vec3(line.toX, line.toY, line.toZ));
+}
+#else
+void lineEnds(out vec3 a, out vec3 b) {
   const int axis = gl_InstanceIndex / 4, which = gl_InstanceIndex % 4;
   vec3 low = vec3(0.0), high = vec3(0.0);
   const vec3 choice = axis == 0 ? vec3(0.0, which & 1, which >> 1)
                                 : (axis == 1 ? vec3(which & 1, 0.0, which >> 1) : vec3(which & 1, which >> 1, 0.0));
   low = choice;
   high = choice + (axis == 0 ? vec3(1.0, 0.0, 0.0) : (axis == 1 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0)));
-  vec3 a = viewPoint(mix(scene.domain_min.xyz, scene.domain_max.xyz, low));
-  vec3 b = viewPoint(mix(scene.domain_min.xyz, scene.domain_max.xyz, high));
+  a = mix(scene.domain_min.xyz, scene.domain_max.xyz, low);
+  b = mix(scene.domain_min.xyz, scene.domain_max.xyz, high);
+}
+#endif
+
+void main() {
+  vec3 a, b;
+  lineEnds(a, b);
+  a = viewPoint(a);
+  b = viewPoint(b);
   // The part in front of the eye.
   const float near = max(view.near_depth, 1e-3 * abs(b.z - a.z));
   if (a.z < near && b.z < near) {
