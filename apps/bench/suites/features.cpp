@@ -43,6 +43,10 @@ constexpr const char* kBody = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.
 constexpr const char* kLoad = R"([{"name": "load", "load": "box"}])";
 constexpr const char* kPressure = R"([{"name": "pressure", "pressure": [0.5, 0.2, 0.5]}])";
 constexpr const char* kTap = R"([{"disc": {"center": [4, 2.5, 0.5], "radius": 0.1, "normal": [0, -1, 0]}, "speed": 1}])";
+constexpr const char* kMovingTap =
+    R"([{"disc": {"center": [4, 2.5, 0.5], "radius": 0.1, "normal": [0, -1, 0]}, "speed": 1, "motion": [{"at": 0}, {"at": 1, "translate": [0.5, 0, 0]}]}])";
+constexpr const char* kInflow = R"({"side": "-x", "level": 0.2, "speed": 1})";
+constexpr const char* kOutflow = R"({"side": "+x", "level": 3.5})";
 constexpr const char* kDrain = R"([{"box": {"min": [4.8, 3, 0.3], "max": [4.9, 3.1, 0.7]}}])";
 constexpr const char* kNoSlipBox = R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "slip": false}])";
 constexpr const char* kDistantBox = R"([{"box": {"min": [4.6, 3, 0.3], "max": [4.9, 3.6, 0.7]}}])";
@@ -77,6 +81,8 @@ std::vector<Feature> features() {
       {"floating box", {{"rill", "\"0.2\""}, {"solids", kBody}}, {{"rill", "\"0.2\""}, {"solids", "[]"}}},
       {"pressure at a point", {{"rill", "\"0.2\""}, {"probes", kPressure}}, {{"rill", "\"0.2\""}, {"probes", "[]"}}},
       {"tap", {{"rill", "\"0.2\""}, {"emitters", kTap}}, {{"rill", "\"0.2\""}, {"emitters", "[]"}}},
+      {"tap that moves", {{"rill", "\"0.2\""}, {"emitters", kMovingTap}}},
+      {"inflow and outflow", {{"rill", "\"0.2\""}, {"domain.inflow", kInflow}, {"domain.outflow", kOutflow}}},
       {"drain", {{"rill", "\"0.2\""}, {"drains", kDrain}}, {{"rill", "\"0.2\""}, {"drains", "[]"}}},
       {"open side that removes", {{"rill", "\"0.2\""}, {"domain.open", R"(["+y"])"}, {"domain.open_removes", "true"}}},
       {"3 iterations", {{"solver.iterations", "3"}, {"solver.warm_start", "0.02"}}, {{"solver.iterations", "1"}}},
