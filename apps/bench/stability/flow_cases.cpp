@@ -88,6 +88,13 @@ void addRandomFlows(Scene& scene, uint64_t seed) {
   scene.domain->open_removes = scene.domain->open != 0;
   if ((scene.domain->open & 3U) == 0 && random() % 2 == 0)
     scene.domain->outflow = Outflow{.level = (domain.max.y - domain.min.y) * uniform(0.1, 0.9)};
+  for (Emitter& emitter : scene.emitters) {
+    if (random() % 3 != 0) continue;
+    const double way = speed * 0.1 * uniform(0, 3), angle = uniform(0, 3);
+    const Double3 to = direction();
+    emitter.motion = {{.at = 0}, {.at = 0.1, .translate = {way * to.x, way * to.y, way * to.z}}};
+    emitter.motion[1].rotate = {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
+  }
 }
 
 std::vector<StressCase> flowCases() {
@@ -102,6 +109,17 @@ std::vector<StressCase> flowCases() {
   cases.push_back(flowCase("tap-along-a-wall", half, {tap({0.5, 0.2, 0}, 0.2, {1, 0, 0}, 1)}));
   cases.push_back(flowCase("mouth-larger-than-the-domain", none, {tap({0.5, 0.5, 0.5}, 3, {0, -1, 0}, 1)}));
   cases.push_back(flowCase("mouth-of-a-hundredth-spacing", half, {tap({0.5, 0.8, 0.5}, 0.0005, {0, -1, 0}, 2)}));
+  {
+    Emitter hose = tap({0.5, 0.9, 0.5}, 0.1, {0, -1, 0}, 2);
+    for (int k = 0; k <= 16; ++k) {
+      const double angle = 0.7 * (k % 4 == 1 ? 1 : k % 4 == 3 ? -1 : 0);
+      hose.motion.push_back({.at = 0.1 * k, .translate = {0.3 * std::sin(angle), 0, 0}});
+      hose.motion.back().rotate = {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
+    }
+    cases.push_back(flowCase("hose-that-swings", half, {hose}));
+    hose.motion = {{.at = 0.2}, {.at = 0.4, .translate = {0, -0.8, 0}}, {.at = 0.6, .translate = {-1, -0.8, 0}}};
+    cases.push_back(flowCase("tap-that-dives-and-leaves", half, {hose}));
+  }
   cases.push_back(
       flowCase("tap-in-a-drain", none, {tap({0.5, 0.9, 0.5}, 0.1, {0, -1, 0}, 1)}, {{.shape = SphereShape{{0.5, 0.8, 0.5}, 0.3}}}));
   cases.push_back(flowCase("drain-of-everything", half, {}, {{.shape = BoxShape{{-1, -1, -1}, {2, 2, 2}}, .from = 0.2}}));
