@@ -60,6 +60,7 @@ std::vector<Experiment> channelExperiments();     ///< laminar flow from an emit
 std::vector<Experiment> orificeExperiments();     ///< jet from a tank that is kept full
 std::vector<Experiment> weirExperiments();        ///< discharge over a weir
 std::vector<Experiment> lakeExperiments();        ///< a tank with regions that sleep, and without
+std::vector<Experiment> jumpExperiments();        ///< depths of a hydraulic jump
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
 /// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.

@@ -42,9 +42,9 @@ Expected<Outcome> lake(const Bench& bench, double spacing) {
   const offline::Stats &a = sleeps->instants.back().stats, &b = never->instants.back().stats;
   outcome.figures.push_back(relativeFigure("potential energy", a.potential_J, b.potential_J));
   outcome.figures.push_back(relativeFigure("mean height", a.centerOfMass[1], b.centerOfMass[1]));
-  outcome.figures.push_back(plainFigure("mean place along the tank, spacings", (a.centerOfMass[0] - b.centerOfMass[0]) / spacing));
-  outcome.figures.push_back(plainFigure("asleep while the tap runs, at most", asleepWhileOpen(*sleeps)));
-  outcome.figures.push_back(plainFigure("time over that without sleep", sleeps->wall_s / never->wall_s));
+  outcome.figures.push_back(plainFigure("mean place", (a.centerOfMass[0] - b.centerOfMass[0]) / spacing));
+  outcome.figures.push_back(plainFigure("asleep, at most", asleepWhileOpen(*sleeps)));
+  outcome.figures.push_back(plainFigure("time over that awake", sleeps->wall_s / never->wall_s));
   outcome.run = std::move(*sleeps);
   return outcome;
 }
