@@ -74,6 +74,8 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {Warm, "warm", "warm-start multipliers", Fluid, kWord, perParticleIf<&ArrayShape::warm>, Account::Particles,
        &FluidSnapshot::warmStart, "warm", true},
       {Id, "id", "ids", Fluid, kWord, perParticle, Account::Particles, &FluidSnapshot::id, "id"},
+      {Rest, "rest", "zones of particles", Fluid, kWord, [](const ArrayShape& s) { return s.regions > 0 ? s.particles : 0; },
+       Account::Particles, &FluidSnapshot::rest, "rest", true},
       {Multiplier, "multiplier", "multipliers", Fluid, kWord, perParticleIf<&ArrayShape::multipliers>, Account::Particles},
       {ListHead, "listHead", "list heads", Fluid, kWord,
        [](const ArrayShape& s) { return s.lists || s.solids > 0 || s.regions > 0 ? s.particles : 0; }, Account::Particles},
@@ -155,14 +157,16 @@ ArrayShape arrayShape(const FluidSetup& setup) {
 
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
   const bool lists = scene.solver.neighbors != NeighborChoice::Grid;
+  const uint64_t cells = maxGridCells(particles);
   const uint64_t capacity = lists ? listCapacity(scene.fluid.smoothing_ratio + kListSkin, hasWalls(scene)) : 0;
   return {.particles = particles,
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
-          .cellStarts = maxGridCells(particles) + 1 + uint64_t{removes(scene)},
+          .cellStarts = (scene.solver.sleep ? 2 : 1) * cells + 1 + uint64_t{removes(scene)},
           .solids = scene.solids.size(),
           .bodies = bodyCount(scene),
           .contactPoints = kMaxContactPoints * bodyCount(scene),
           .pressureProbes = pressureProbeCount(scene),
+          .regions = scene.solver.sleep ? cells / (kRegionCellsX * kRegionCellsY * kRegionCellsZ) : 0,
           .lists = lists,
           .warm = startsWarm(scene),
           .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,

@@ -49,6 +49,7 @@ enum class FluidArray : uint8_t {
   Work,
   Warm,
   Id,
+  Rest,
   Multiplier,
   ListHead,
   Cell,

@@ -75,7 +75,7 @@ uint32_t listEntries(uint32_t particle, std::span<const uint32_t> neighbors) {
   return entries;
 }
 
-std::vector<uint32_t> layOutHeads(const FluidSnapshot& s, std::span<const uint32_t> zones) {
+std::vector<uint32_t> layOutHeads(const FluidSnapshot& s) {
   std::vector<uint32_t> heads(s.id.size());
   forEachListed(s, 0, UINT32_MAX, [&](uint32_t i, std::span<const uint32_t> neighbors) {
     const bool listed = s.neighborCount[i] <= s.listCapacity;
@@ -83,8 +83,8 @@ std::vector<uint32_t> layOutHeads(const FluidSnapshot& s, std::span<const uint32
                headDistance(i, neighbors) << kHeadDistanceShift;
   });
   for (const NearSolids& near : s.nearSolids) heads[near.particle] |= kNearSolidsBit;
-  for (size_t i = 0; i < zones.size(); ++i)
-    if (zones[i] != kZoneMoves) heads[i] |= kAsleepBit;
+  for (size_t i = 0; i < s.rest.size(); ++i)
+    if (s.rest[i] != kZoneMoves) heads[i] |= kAsleepBit;
   return heads;
 }
 

@@ -11,8 +11,8 @@ namespace rill {
 /// Entries that a particle's neighbors take on the device: more than there are neighbors where some are far apart, or images.
 uint32_t listEntries(uint32_t particle, std::span<const uint32_t> neighbors);
 
-/// The list heads of all particles. `zones`: see zonesOf(), empty where no regions sleep.
-std::vector<uint32_t> layOutHeads(const FluidSnapshot& snapshot, std::span<const uint32_t> zones = {});
+/// The list heads of all particles.
+std::vector<uint32_t> layOutHeads(const FluidSnapshot& snapshot);
 
 /// The list of particles [first, last): k-major in blocks of kListBlock particles, four entries in two words. `out` (words) has room for
 /// whole blocks and is written where it will be read.

@@ -90,20 +90,4 @@ void addRegions(const Double3& room, FluidSetup& setup) {
   p.regionsX = x, p.regionsY = y, p.regionsZ = z;
 }
 
-std::vector<uint32_t> zonesOf(const FluidSnapshot& s, const FluidParams& p) {
-  constexpr size_t kZone = offsetof(RegionRecord, zone) / 4;
-  std::vector<uint32_t> zones;
-  if (p.regionsX == 0 || s.cell.empty()) return zones;
-  zones.reserve(s.cell.size());
-  const uint32_t cells = p.gridSizeX * p.gridSizeY * p.gridSizeZ;
-  for (const uint32_t key : s.cell) {
-    const uint32_t cell = key % cells, row = cell / p.gridSizeX;
-    const uint32_t x = std::min(cell % p.gridSizeX / kRegionCellsX, p.regionsX - 1);
-    const uint32_t y = std::min(row % p.gridSizeY / kRegionCellsY, p.regionsY - 1);
-    const uint32_t z = std::min(row / p.gridSizeY / kRegionCellsZ, p.regionsZ - 1);
-    zones.push_back(s.regions[((z * p.regionsY + y) * p.regionsX + x) * kRegionWords + kZone]);
-  }
-  return zones;
-}
-
 }  // namespace rill

@@ -1,10 +1,8 @@
 #pragma once
 // What the host knows of when a fluid may sleep: docs/notes/sleep.md.
 #include <cstdint>
-#include <vector>
 
 #include "fluid/settings.hpp"
-#include "rill/snapshot.hpp"
 #include "shared/region_records.h"
 
 namespace rill {
@@ -21,8 +19,5 @@ Double3 extentWithGap(const Double3& room, const FluidSetup& setup);
 
 /// Divides the grid into regions that fall asleep on their own, if the fluid may sleep and has room for it. Call it after the grid is set.
 void addRegions(const Double3& room, FluidSetup& setup);
-
-/// The zone (region_records.h) of each particle, from the regions and cells of a snapshot. Empty where no regions sleep.
-std::vector<uint32_t> zonesOf(const FluidSnapshot& snapshot, const FluidParams& params);
 
 }  // namespace rill

@@ -56,7 +56,8 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   if (!s.loads.empty())  // they may be of no use to the scene that goes on
     if (auto right = checkLength("loads", s.loads.size(), uint64_t{kLoadNumbers} * shape.solidCount); !right) return right;
   if (auto right = checkLength("flows", s.flows.size(), shape.flowWords); !right) return right;
-  if (auto right = checkLength("regions", s.regions.size(), kRegionWords * shape.regions); !right) return right;
+  if (!s.regions.empty())
+    if (auto right = checkLength("regions", s.regions.size(), kRegionWords * shape.regions); !right) return right;
   if (s.pressures.size() % kPressureProbeWords != 0)  // of other probes they are of no use
     return wrong("pressures has " + std::to_string(s.pressures.size()) + " entries; expected a multiple of " +
                  std::to_string(kPressureProbeWords));
@@ -65,8 +66,8 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
     return wrong("it has " + std::to_string(count) + " particles; expected at most " + std::to_string(shape.capacity));
   Expected<void> result;
   forEachSaved([&](const ArrayRow& row, auto member) {
-    // Of a fluid without a warm start there are none.
-    const bool absent = row.optional && s.warmAcceleration.empty() && s.warmStart.empty();
+    // Of a fluid without a warm start, or without regions, there are none.
+    const bool absent = row.id == FluidArray::Rest ? s.regions.empty() : row.optional && s.warmAcceleration.empty() && s.warmStart.empty();
     if (result) result = checkLength(row.savedName, (s.*member).size(), absent ? 0 : count);
   });
   return result;
@@ -166,21 +167,30 @@ Expected<void> checkFlows(const FluidSnapshot& s, const SnapshotShape& shape) {
   return {};
 }
 
-/// Regions have states and zones that there are, and the particles of those asleep come last.
+/// Whether a region's state can be gone on with. Its sums are those of no particles.
+bool valid(const RegionRecord& r) {
+  for (const float number : {r.restShare, r.restForceX, r.restForceY, r.restForceZ})
+    if (!(std::abs(number) < 1e15F)) return false;
+  const auto sums = {r.particles, r.motion, r.fastest, r.nearSolid};
+  const auto vectors = {r.driftX, r.driftY, r.driftZ, r.forceX, r.forceY, r.forceZ};
+  return r.state <= kRegionAsleep && r.zone <= kZoneAsleep && r.woken <= 1 && r.moves <= 1 && std::ranges::count(sums, 0u) == 4 &&
+         std::ranges::count(vectors, 0) == 6;
+}
+
+/// Regions have states that there are, and particles of those asleep come last.
 Expected<void> checkRegions(const FluidSnapshot& s, const SnapshotShape& shape) {
   const auto control = record<FluidControl>(s.control);
-  if (shape.regions == 0)
-    return control.solved == control.count ? Expected<void>() : wrong("its substeps are not over all particles, but no regions sleep");
+  const auto time = [](float seconds) { return seconds >= 0 && seconds < 1e15F; };
+  if (!time(control.regionTime) || !time(control.sleepStep)) return wrong("its times of regions are not finite numbers of at least 0 (s)");
   const std::span<const uint32_t> words(s.regions);
-  for (size_t k = 0; k < shape.regions; ++k) {
-    const auto r = record<RegionRecord>(words.subspan(k * kRegionWords, kRegionWords));
-    bool good = r.state <= kRegionAsleep && r.zone <= kZoneAsleep && r.woken <= 1 && r.moves <= 1;
-    for (const float number : {r.restShare, r.restForceX, r.restForceY, r.restForceZ}) good &= std::abs(number) < 1e15F;
-    if (!good) return wrong(elementPath("regions", k) + " has a state that is not valid");
-  }
-  const auto first = hasNeighbors(s) ? std::ranges::lower_bound(s.cell, static_cast<uint32_t>(shape.cells)) - s.cell.begin()
-                                     : std::ptrdiff_t{control.solved};
-  if (control.solved > control.count || first != std::ptrdiff_t{control.solved} || !(control.sleepStep >= 0 && control.sleepStep < 1e15F))
+  for (size_t k = 0; k < words.size() / kRegionWords; ++k)
+    if (!valid(record<RegionRecord>(words.subspan(k * kRegionWords, kRegionWords))))
+      return wrong(elementPath("regions", k) + " has a state that is not valid");
+  const auto last = std::ranges::find(s.rest, uint32_t{kZoneAsleep});
+  const auto solved = s.rest.empty() ? std::ptrdiff_t{control.count} : last - s.rest.begin();
+  const bool cells = !hasNeighbors(s) || std::ranges::lower_bound(s.cell, static_cast<uint32_t>(shape.cells)) - s.cell.begin() == solved;
+  if (solved != std::ptrdiff_t{control.solved} || !cells || std::any_of(last, s.rest.end(), [](uint32_t z) { return z != kZoneAsleep; }) ||
+      std::any_of(s.rest.begin(), last, [](uint32_t z) { return z > kZoneAsleep; }))
     return wrong("its particles in regions asleep do not come last");
   return {};
 }
@@ -275,13 +285,21 @@ void forgetNeighbors(FluidSnapshot& s) {
 void wake(FluidSnapshot& s) {
   if (!s.regions.empty()) forgetNeighbors(s);  // those asleep have no lists
   auto control = record<FluidControl>(s.control);
+  auto sums = record<FluidSums>(s.sums);
+  const float ratio = control.sleepStep > 0 ? control.warmStep / control.sleepStep : 1;  // of the steps that multipliers are expressed for
+  for (size_t i = 0; i < s.rest.size(); ++i) {
+    if (s.rest[i] == kZoneMoves || s.warmStart.empty()) continue;
+    if (s.rest[i] == kZoneAsleep) s.warmStart[i] *= ratio * ratio;
+    s.warmAcceleration[i] = {-control.gravityX, -control.gravityY, -control.gravityZ, 0};  // what sleeps is in balance
+  }
   control.sleep = kAwake;
   control.restShare = 0;
-  const float ratio = control.sleepStep > 0 ? control.warmStep / control.sleepStep : 1;  // of the steps that multipliers are expressed for
-  for (size_t i = control.solved; i < s.warmStart.size(); ++i) s.warmStart[i] *= ratio * ratio;
   control.solved = control.count;
+  sums.asleep = 0;
   s.control = wordsOf(control);
-  std::ranges::fill(s.regions, 0);
+  s.sums = wordsOf(sums);
+  s.regions.clear();
+  s.rest.clear();
 }
 
 void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
@@ -354,6 +372,7 @@ void replaceSolids(FluidSnapshot& s, std::span<const Solid> before, std::span<co
 
 void addEmitters(FluidSnapshot& s, const Scene& before, const Scene& after, const Double3& origin) {
   forgetNeighbors(s);
+  wake(s);
   if (after.emitters.size() <= before.emitters.size()) return;
   if (s.flows.empty()) {  // no particle has come or gone so far
     FlowRecord ledger = firstLedger(static_cast<uint32_t>(s.id.size()), record<FluidSums>(s.sums).nonFinite);
@@ -377,12 +396,12 @@ void addEmitters(FluidSnapshot& s, const Scene& before, const Scene& after, cons
 }
 
 void setGravity(FluidSnapshot& s, const Double3& gravity) {
+  wake(s);  // in balance with the gravity so far
   auto control = record<FluidControl>(s.control);
   control.gravityX = static_cast<float>(gravity[0]);
   control.gravityY = static_cast<float>(gravity[1]);
   control.gravityZ = static_cast<float>(gravity[2]);
   s.control = wordsOf(control);
-  wake(s);
 }
 
 Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape& shape) {

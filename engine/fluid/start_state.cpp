@@ -121,6 +121,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->add(slotOf(FluidArray::Id), id.size() * 4, bytesOf(id));
   staging_->clear(slotOf(FluidArray::Warm));
   staging_->clear(slotOf(FluidArray::WarmAcceleration));
+  staging_->clear(slotOf(FluidArray::Rest));
   staging_->clear(slotOf(FluidArray::Regions));
   ledger = firstLedger(count, sums.nonFinite);
   stageFlows();
@@ -185,7 +186,10 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(slotOf(FluidArray::PressureProbes), probes.size() * sizeof(PressureProbeRecord), bytesOf(probes));
   if (setup.removes) resumeFlows(s);
   stageFlows();
-  staging_->add(slotOf(FluidArray::Regions), s.regions.data(), s.regions.size() * 4);
+  if (s.regions.empty())
+    staging_->clear(slotOf(FluidArray::Regions));
+  else
+    staging_->add(slotOf(FluidArray::Regions), s.regions.data(), s.regions.size() * 4);
   takeLoads(std::as_bytes(std::span(s.loads)));
   if (setup.loads && !s.loads.empty())
     staging_->add(slotOf(FluidArray::SolidLoads), s.loads.data(), s.loads.size() * sizeof s.loads[0]);
@@ -206,7 +210,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
     staging_->add(slotOf(FluidArray::NearSolids), bytes, bytesOf(std::move(near)));
   }
   if (rowOf(FluidArray::ListHead).length(shape) > 0) {
-    std::vector<uint32_t> heads = layOutHeads(s, zonesOf(s, setup.params));
+    std::vector<uint32_t> heads = layOutHeads(s);
     const uint64_t bytes = heads.size() * 4;
     staging_->add(slotOf(FluidArray::ListHead), bytes, bytesOf(std::move(heads)));
   }

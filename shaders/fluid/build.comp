@@ -42,8 +42,8 @@ layout(std430, binding = 16) readonly buffer SolidBlock { SolidRecord solids[]; 
 
 const uint kNone = 0xffffffffu;
 
-// Lists the particle, if it is `listed`, and the solids near it; whether there are any.
-bool listNear(uint i, vec3 x, bool isListed) {
+// Lists the particle and the solids near it; whether there are any.
+bool listNear(uint i, vec3 x) {
   if (!isActive(x)) return false;
   uvec3 listed = kNothingNear;
   uint found = 0u;
@@ -60,7 +60,6 @@ bool listNear(uint i, vec3 x, bool isListed) {
     } LOOP_END(mask != 0u);
   }
   if (found == 0u) return false;
-  if (!isListed) return true;
   if (found > kListedSolids) addSolid(listed, 0u, kAllSolids);
   nearSolids[atomicAdd(sums.nearSolids, 1u)] = uvec4(i, listed);
   return true;
@@ -212,7 +211,7 @@ void main() {
     if (subgroupElect()) atomicAdd(sums.asleep, sleeping);
   }
   if (!inRange) return;
-  cell[i] = cellKey(cellOf(x)) + (asleep && zone == kZoneAsleep ? params.gridSizeX * params.gridSizeY * params.gridSizeZ : 0u);
+  cell[i] = cellKey(cellOf(x)) + (asleep && zone == kZoneAsleep ? cellCount() : 0u);
   uint head = 0u;
   if (LIST_CAPACITY != 0u) {
     uint all = stored + holds;
@@ -233,12 +232,11 @@ void main() {
     from = insideWalls(from + apart);
   }
   position[i] = vec4(from, 0.0);
-  bool nearSolid = SOLIDS && listNear(i, x, !asleep);
-  prediction[i] = vec4(x, asleep ? float(nearSolid) : predicted.w);  // asleep: see rest_motion.comp
+  prediction[i] = vec4(x, max(predicted.w, 0.0));
   velocity[i] = vec4(moving.xyz, 1.0);
   if (WARM) warm[i] = moving.w;
   id[i] = own;
-  if (nearSolid && !asleep) head |= kNearSolidsBit;
+  if (SOLIDS && !asleep && listNear(i, x)) head |= kNearSolidsBit;
   if (asleep) head |= kAsleepBit;
   if (LIST_CAPACITY != 0u || SOLIDS || REGIONS) listHead[i] = head;
 }

@@ -51,7 +51,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
   if ((first ? control.running : control.again) == 0u) return first ? kNoSubstep : kKeepCommands;
 
   float errorMax = uintBitsToFloat(sums.errorMax);
-  float error = (float(sums.errorHigh) * 4294967296.0 + float(sums.errorLow)) * kErrorUnit / float(max(control.solved, 1u));
+  float error = (float(sums.errorHigh) * 4294967296.0 + float(sums.errorLow)) * kErrorUnit / float(max(movingParticles(), 1u));
   bool converged = params.tolerance > 0.0 && error <= params.tolerance && errorMax <= 100.0 * params.tolerance;
   bool again = iteration + 1u < params.iterations && !converged;
   control.iterations += 1u;
@@ -90,12 +90,11 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     gravityAt();
     vec3 gravity = vec3(control.gravityX, control.gravityY, control.gravityZ);
     float acceleration = length(gravity);
-    control.desiredStep = plannedStep(tolerableStep(error), cflStep(acceleration, control.head));
+    control.desiredStep = plannedStep(movingParticles() > 0u ? tolerableStep(error) : control.desiredStep, cflStep(acceleration, control.head));
     accountRest(error, gravity != gravityBefore);
     if (gravity != gravityBefore) control.wakesAll = 1u;
     control.regionTime += control.step;
-    sums.motionLow = 0u;
-    sums.motionHigh = 0u;
+    noticeCauses();
     if (control.timeLeft < 1.0e-4 * control.step) control.timeLeft = 0.0;
     if (control.timeLeft > 0.0 && control.substeps >= params.maxSubsteps) {
       control.timeDropped += control.timeLeft;
@@ -107,6 +106,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     if (nextTravel > params.travelLimit || control.emissionWait <= 0.0 || regionsAreDue()) control.listState = kListDue;
   }
 
+  if (first) sums.motionLow = sums.motionHigh = 0u;
   if (first && control.noiseDamping > 0.0) control.executedNoiseDampings += 1u;
   control.running = control.timeLeft > 0.0 && control.listState == kListValid ? 1u : 0u;
   control.again = again ? 1u : 0u;

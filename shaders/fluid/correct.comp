@@ -137,9 +137,11 @@ float endSubstep(uint i, uint head) {
   return sqrt(dot(v, v));
 }
 
-void addMotion(uint add) {
-  uint old = atomicAdd(sums.motionLow, add);
-  if (old + add < old) atomicAdd(sums.motionHigh, 1u);
+// In kMotionUnit.
+void addMotion(float units) {
+  float high = floor(units / 4294967296.0);
+  uint add = uint(units - high * 4294967296.0), old = atomicAdd(sums.motionLow, add), carry = uint(high) + uint(old + add < old);
+  if (carry > 0u) atomicAdd(sums.motionHigh, carry);
 }
 
 void main() {
@@ -161,5 +163,5 @@ void main() {
   float motion = subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion));
   if (!subgroupElect()) return;
   atomicMax(sums.speedMax, floatBitsToUint(fastest));
-  addMotion(uint(motion / kMotionUnit + 0.5));
+  addMotion(round(motion / kMotionUnit));
 }

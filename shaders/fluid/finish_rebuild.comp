@@ -42,6 +42,7 @@ void main() {
   control.sleepStep = control.warmStep;
   control.regionTime = 0.0;
   control.wakesAll = 0u;
+  control.regionsDue = 0u;
   FluidSums s = sums;
   followColumn(columnHead(s));
   switchCommands(kNoSubstep);  // the sort's own, too: another rebuild may be recorded behind this one

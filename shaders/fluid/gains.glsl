@@ -4,9 +4,12 @@
 #ifndef RILL_GAINS_GLSL
 #define RILL_GAINS_GLSL
 #include "fluid/stability.glsl"
-// Mean square of the speeds after the last correction, m^2/s^2.
+// Particles that substeps move.
+uint movingParticles() { return control.count - min(sums.asleep, control.count); }
+
+// Mean square of their speeds after the last correction, m^2/s^2.
 float meanMotion() {
-  return (float(sums.motionHigh) * 4294967296.0 + float(sums.motionLow)) * kMotionUnit / float(max(control.solved, 1u)) * params.layerHead;
+  return (float(sums.motionHigh) * 4294967296.0 + float(sums.motionLow)) * kMotionUnit / float(max(movingParticles(), 1u)) * params.layerHead;
 }
 
 // From the speed of the flow, the gains of the next substep.

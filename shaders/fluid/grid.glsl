@@ -26,6 +26,8 @@ uint cellKey(vec3 cell) {
   return (c.z * size.y + c.y) * size.x + c.x;
 }
 
+uint cellCount() { return params.gridSizeX * params.gridSizeY * params.gridSizeZ; }
+
 vec3 cellOf(vec3 x) { return wrapped(floor(scaledPosition(x))); }
 
 vec3 cellFromKey(uint key) {

@@ -20,12 +20,11 @@ layout(std430, binding = 6) readonly buffer RegionBlock { RegionRecord regions[]
 // What sleeps stays where it is, behind all that does not; inactive particles come last.
 uint keyOf(uint i) {
   vec3 x = placeAt(i).xyz;
-  uint cells = params.gridSizeX * params.gridSizeY * params.gridSizeZ, zones = REGIONS ? 2u : 1u;
-  if (REMOVES && !isActive(x)) return zones * cells;
+  if (REMOVES && !isActive(x)) return (REGIONS ? 2u : 1u) * cellCount();
   if (!REGIONS || !REBUILDS) return cellKey(cellOf(x));
   vec3 from = positionAt(i).xyz;
   uint zone = zoneOf(from);
-  return cellKey(cellOf(zone == kZoneMoves ? x : from)) + (zone == kZoneAsleep ? cells : 0u);
+  return cellKey(cellOf(zone == kZoneMoves ? x : from)) + (zone == kZoneAsleep ? cellCount() : 0u);
 }
 
 void main() {

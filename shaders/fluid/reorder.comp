@@ -17,6 +17,7 @@ layout(std430, binding = 11) writeonly buffer SortedPositionBlock { vec4 sortedP
 layout(std430, binding = 12) writeonly buffer SortedPredictionBlock { vec4 sortedPrediction[]; };
 layout(std430, binding = 13) writeonly buffer SortedVelocityBlock { vec4 sortedVelocity[]; };
 layout(std430, binding = 14) writeonly buffer TangentialBlock { vec4 nearTangential[]; };  // 0 until solids are found to be near
+layout(std430, binding = 16) writeonly buffer RestBlock { uint rest[]; };  // zones
 layout(std430, binding = 15) readonly buffer RegionBlock { RegionRecord regions[]; };
 #include "fluid/zones.glsl"
 
@@ -34,6 +35,7 @@ void main() {
   vec3 x = positionAt(from).xyz, v = velocityAt(from).xyz;
   vec4 next = predictionAt(from);
   uint zone = REGIONS ? zoneOf(x) : kZoneMoves;
+  if (REGIONS) rest[place] = zone;
   if (zone != kZoneMoves) {
     v = vec3(0.0);
     next = vec4(x, -float(zone));

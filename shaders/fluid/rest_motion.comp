@@ -8,9 +8,22 @@ layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(2, position)
 READ_FLOAT4(3, velocity)
 READ_FLOAT4(4, warmAcceleration)
-READ_FLOAT4(5, prediction)  // w, of a particle that sleeps: 1 where a solid is near
-READ_UINT(6, listHead)
-layout(std430, binding = 7) buffer RegionBlock { RegionRecord regions[]; };
+READ_UINT(5, listHead)
+layout(std430, binding = 6) buffer RegionBlock { RegionRecord regions[]; };
+layout(std430, binding = 7) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT(8, meshWord)
+#define MESH_WORDS
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
+
+bool isNearSolid(vec3 x) {
+  for (uint k = 0u; SOLIDS && k < params.solidCount; ++k) {
+    vec3 normal;
+    if (isBeyond(centerOf(solids[k].pose), solids[k].radius, x, params.nearLimit)) continue;
+    if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal) < params.nearLimit) return true;
+  }
+  return false;
+}
 
 ivec3 terms(vec3 x) { return ivec3(round(clamp(x, -kMaxRegionTerm, kMaxRegionTerm) / kRegionUnit)); }
 
@@ -20,13 +33,12 @@ void main() {
   vec3 x = positionAt(i).xyz, v = velocityAt(i).xyz;
   if (!isActive(x)) return;
   uint r = regionIndex(regionOf(x));
-  bool still = v == vec3(0.0), unsolved = i >= control.solved;
-  // Those that were just born have no list.
-  bool nearSolid = SOLIDS && (unsolved ? still && predictionAt(i).w > 0.0
-                                       : (listHeadAt(i) & kNearSolidsBit) != 0u ||
-                                             ((listHeadAt(i) & kAsleepBit) != 0u && predictionAt(i).w > 0.0));
-  if (nearSolid) atomicOr(regions[r].busy, 1u);
-  if (unsolved && still) return;  // asleep, with all of its region
+  bool isBehind = i >= control.solved && v == vec3(0.0);  // in a region that sleeps; what was just born moves
+  if (SOLIDS) {
+    bool hasList = i < control.solved && (listHeadAt(i) & kAsleepBit) == 0u;
+    if (hasList ? (listHeadAt(i) & kNearSolidsBit) != 0u : isNearSolid(x)) atomicOr(regions[r].nearSolid, 1u);
+  }
+  if (isBehind) return;
 
   float fall = sqrt(params.layerHead), speed = length(v) / fall;
   atomicAdd(regions[r].particles, 1u);

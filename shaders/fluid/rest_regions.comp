@@ -11,6 +11,8 @@ layout(std430, binding = 3) readonly buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 4) readonly buffer EmitterBlock { EmitterRecord emitters[]; };
 layout(std430, binding = 5) readonly buffer DrainBlock { DrainRecord drains[]; };
 layout(std430, binding = 6) readonly buffer PressureProbeBlock { PressureProbeRecord pressureProbes[]; };
+layout(std430, binding = 7) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
+#include "fluid/mouth_frame.glsl"
 #include "fluid/rest_limits.glsl"
 
 const float kRestNoise = 0.01;   // root mean square of a region's speeds, of the speed of a fall through a spacing
@@ -24,22 +26,22 @@ bool reaches(vec3 x, float radius, uvec3 at) {
 }
 
 // Whether something acts here that moves fluid or looks at it.
-bool isVisited(uvec3 at) {
+bool isAtFlowOrProbe(uvec3 at) {
   float now = control.timeHigh + control.timeLow;
-  bool visited = false;
+  bool near = false;
   for (uint n = 0u; n < params.pressureProbes; ++n)
-    visited = visited || reaches(vec3(pressureProbes[n].x, pressureProbes[n].y, pressureProbes[n].z), 0.0, at);
+    near = near || reaches(vec3(pressureProbes[n].x, pressureProbes[n].y, pressureProbes[n].z), 0.0, at);
   for (uint e = 0u; e < params.emitterCount; ++e) {
     bool open = emitters[e].rate > 0.0 && now >= emitters[e].from && now <= emitters[e].until;
-    vec3 center = vec3(emitters[e].centerX, emitters[e].centerY, emitters[e].centerZ);
-    visited = visited || (open && reaches(center, length(vec2(emitters[e].halfAcross, emitters[e].halfUp)), at));
+    vec3 center = centerOf(mouthFrame(e, now).pose);
+    near = near || (open && reaches(center, length(vec2(emitters[e].halfAcross, emitters[e].halfUp)), at));
   }
   for (uint k = 0u; k < params.drainCount; ++k) {
     bool open = now >= drains[k].from && now <= drains[k].until, ball = drains[k].sphere != 0u;
     vec3 low = vec3(drains[k].lowX, drains[k].lowY, drains[k].lowZ), high = vec3(drains[k].highX, drains[k].highY, drains[k].highZ);
-    visited = visited || (open && reaches(ball ? low : 0.5 * (low + high), ball ? high.x : 0.5 * length(high - low), at));
+    near = near || (open && reaches(ball ? low : 0.5 * (low + high), ball ? high.x : 0.5 * length(high - low), at));
   }
-  return visited;
+  return near;
 }
 
 void main() {
@@ -49,22 +51,22 @@ void main() {
   RegionRecord region = regions[r];
   if (region.woken != 0u) region.state = kRegionAwake;
   region.woken = 0u;
-  bool busy = region.busy != 0u || control.wakesAll != 0u || melts() || isVisited(regionAt(r));
+  bool heldAwake = region.nearSolid != 0u || control.wakesAll != 0u || melts() || isAtFlowOrProbe(regionAt(r));
   float each = 1.0 / float(max(region.particles, 1u)), fall = sqrt(params.layerHead);
   float noise = sqrt(float(region.motion) * kRegionMotionUnit * each), fastest = uintBitsToFloat(region.fastest) / fall;
   float drift = length(vec3(region.driftX, region.driftY, region.driftZ)) * kRegionUnit * each * fall;
   vec3 force = vec3(region.forceX, region.forceY, region.forceZ) * kRegionUnit * each;
   RestLimits limits = restLimits();
-  bool calm = noise <= kRestNoise && fastest <= kRestMaxSpeed && drift <= limits.speed;
+  bool atRest = region.particles <= kMaxRegionParticles && noise <= kRestNoise && fastest <= kRestMaxSpeed && drift <= limits.speed;
 
   if (region.state == kRegionAsleep) {
-    bool unseen = region.zone == kZoneAsleep && region.particles == 0u;
-    bool pushed = length(force - vec3(region.restForceX, region.restForceY, region.restForceZ)) > kRestForce;
-    bool changed = !calm || region.particles != region.restParticles || (region.zone == kZoneWatched && pushed);
-    if (busy || (!unseen && changed)) region.state = kRegionAwake, region.restShare = 0.0;
+    bool hasNoSums = region.zone == kZoneAsleep && region.particles == 0u;
+    bool forced = length(force - vec3(region.restForceX, region.restForceY, region.restForceZ)) > kRestForce;
+    bool changed = !atRest || region.particles != region.restParticles || (region.zone == kZoneWatched && forced);
+    if (heldAwake || (!hasNoSums && changed)) region.state = kRegionAwake, region.restShare = 0.0;
   } else {
     region.state = region.particles == 0u ? kRegionEmpty : kRegionAwake;
-    region.restShare = busy || !calm ? 0.0 : region.restShare + control.regionTime / limits.time;
+    region.restShare = heldAwake || !atRest ? 0.0 : region.restShare + control.regionTime / limits.time;
     if (region.state == kRegionAwake && region.restShare >= 1.0) {
       region.state = kRegionAsleep;
       region.restParticles = region.particles;

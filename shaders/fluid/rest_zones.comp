@@ -24,7 +24,7 @@ void main() {
   uint r = flatInvocation();
   if (r >= regionCount()) return;
   regions[r].zone = zoneAround(r);
-  regions[r].particles = regions[r].motion = regions[r].fastest = regions[r].busy = 0u;
+  regions[r].particles = regions[r].motion = regions[r].fastest = regions[r].nearSolid = 0u;
   regions[r].driftX = regions[r].driftY = regions[r].driftZ = 0;
   regions[r].forceX = regions[r].forceY = regions[r].forceZ = 0;
 }

@@ -29,17 +29,25 @@ void accountRest(float error, bool gravityChanged) {
   float fastest = kRestMaxSpeed * sqrt(params.layerHead), compression = error / (control.step * control.step);
   bool steady = params.tolerance <= 0.0 || abs(compression - control.errorRate) <= kRestPressure * control.errorRate;
   bool slow = meanMotion() <= limits.speed * limits.speed && control.speed <= fastest && control.bodySpeed <= kRestBodies * limits.speed;
-  bool still = control.solved == 0u || (slow && steady);  // else there is nothing to be steady
+  bool still = movingParticles() == 0u || (slow && steady);  // else there is nothing to be steady
   bool rests = still && !melts() && !gravityChanged && quietTime() > 0.0;
   control.restShare = rests ? control.restShare + control.step / limits.time : 0.0;
 }
 
 // Whether it is time to look which regions rest: at least as often as a fall through a spacing takes.
 bool regionsAreDue() {
-  return params.regionsX != 0u && (control.wakesAll != 0u || control.regionTime > params.spacing * inversesqrt(params.layerHead));
+  return params.regionsX != 0u && (control.wakesAll + control.regionsDue != 0u || control.regionTime > params.spacing * inversesqrt(params.layerHead));
+}
+
+// Regions are looked at when something begins to act.
+void noticeCauses() {
+  uint acts = uint(quietTime() <= 0.0);
+  if (acts > control.acts) control.regionsDue = 1u;
+  control.acts = acts;
 }
 
 void wake() {
+  if (control.sleep != kAwake) control.regionsDue = 1u;
   control.sleep = kAwake;
   control.restShare = 0.0;
 }

@@ -185,6 +185,8 @@ struct FluidControl {
   float sleepStep;     // s, the step that the multipliers of the others are expressed for
   float regionTime;    // s since regions were looked at
   uint wakesAll;       // 1: gravity has changed since
+  uint regionsDue;     // 1: they are to be looked at before the next substep
+  uint acts;           // 1: an emitter, a drain or something else known beforehand acts
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -207,7 +209,7 @@ struct FluidSums {
   uint asleep;               // particles in regions that sleep, at the last build
   uint motionLow, motionHigh;  // 64-bit sum of squared speeds over gravity times spacing, in kMotionUnit
 };
-RILL_CONST float kMotionUnit = 1.0f / 1048576.0f;
+RILL_CONST float kMotionUnit = 1.0f / 67108864.0f;
 RILL_CONST float kMaxMotion = 32.0f;  // what one particle adds, at most
 RILL_CONST float kFlowTimes = 4.0f;   // the fastest particle of a flow is about so many times as fast as the root mean square
 RILL_CONST float kColumnUnits = 16.0f;

@@ -27,7 +27,7 @@ struct RegionRecord {
   uint fastest;                           // bits of the largest speed, m/s
   int driftX, driftY, driftZ;             // velocities over the speed of a fall through a spacing, in kRegionUnit
   int forceX, forceY, forceZ;             // warm-start acceleration plus gravity, over gravity, in kRegionUnit
-  uint busy;                              // 1: a solid is near a particle
+  uint nearSolid;                         // 1: a solid is near a particle
   // State.
   uint state;
   uint woken;                             // 1: by a neighbor; the next rebuild makes it awake
@@ -37,6 +37,7 @@ struct RegionRecord {
   uint restParticles;                     // when it fell asleep
   float restForceX, restForceY, restForceZ;  // likewise, mean of a particle
 };
+RILL_CONST uint kMaxRegionParticles = 1000u;  // of more the sums may not fit, and it counts as moving
 RILL_CONST float kRegionMotionUnit = 1.0f / 1073741824.0f;
 RILL_CONST float kMaxRegionMotion = 1.0f / 256.0f;  // what one particle adds, at most
 RILL_CONST float kRegionUnit = 1.0f / 1048576.0f;

@@ -39,7 +39,7 @@ TEST_F(StillTankTest, ComesToRestBesideWalls) {
   speedUntil(60, 210);
   const double late = speedUntil(210, 240);
   EXPECT_GT(melting, 0.007) << "it leaves the lattice";
-  EXPECT_LT(late, 0.8 * melting);
+  EXPECT_LT(late, 0.7 * melting);
   EXPECT_LT(late, 0.009) << "0.0024 to 0.0058 were measured at six spacings that differ by 0.3 %";
   const auto [sunk, height] = std::pair(run->stats().centerOfMass[1], 5 * t.d());
   EXPECT_NEAR(sunk / height, 1, 0.0015) << "calibrated on the lattice alone it sinks by 0.0045";

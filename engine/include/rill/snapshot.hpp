@@ -48,13 +48,15 @@ struct FluidSnapshot {
   /// FlowRecord (flow_records.h), then EmitterRecord of each emitter and DrainRecord of each drain, word by word; empty if no particles
   /// come or go.
   std::vector<uint32_t> flows = {};
-  /// RegionRecord (region_records.h) of each region of the grid that may fall asleep on its own, word by word; empty if none may.
+  /// RegionRecord (region_records.h) of each region of the grid that may fall asleep on its own, word by word; empty if none may,
+  /// or if all are awake.
   std::vector<uint32_t> regions = {};
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
   // Warm start; empty without one.
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
   std::vector<float> warmStart = {};          ///< multipliers, m^2
   std::vector<uint32_t> id = {};
+  std::vector<uint32_t> rest = {};          ///< zones (region_records.h) that the particles were sorted by; empty as `regions` is
   std::vector<NearSolids> nearSolids = {};  ///< by increasing particle
   // Neighbor list; empty if the next step rebuilds it.
   uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle; a neighbor takes one or two
