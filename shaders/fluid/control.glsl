@@ -90,7 +90,8 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     gravityAt();
     vec3 gravity = vec3(control.gravityX, control.gravityY, control.gravityZ);
     float acceleration = length(gravity);
-    control.desiredStep = plannedStep(movingParticles() > 0u ? tolerableStep(error) : control.desiredStep, cflStep(acceleration, control.head));
+    float tolerable = movingParticles() > 0u ? tolerableStep(error) : control.desiredStep;  // else there is no error to go by
+    control.desiredStep = plannedStep(tolerable, cflStep(acceleration, control.head));
     accountRest(error, gravity != gravityBefore);
     if (gravity != gravityBefore) control.wakesAll = 1u;
     control.regionTime += control.step;

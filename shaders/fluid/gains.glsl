@@ -9,7 +9,8 @@ uint movingParticles() { return control.count - min(sums.asleep, control.count);
 
 // Mean square of their speeds after the last correction, m^2/s^2.
 float meanMotion() {
-  return (float(sums.motionHigh) * 4294967296.0 + float(sums.motionLow)) * kMotionUnit / float(max(movingParticles(), 1u)) * params.layerHead;
+  float sum = (float(sums.motionHigh) * 4294967296.0 + float(sums.motionLow)) * kMotionUnit;
+  return sum / float(max(movingParticles(), 1u)) * params.layerHead;
 }
 
 // From the speed of the flow, the gains of the next substep.

@@ -36,7 +36,8 @@ void accountRest(float error, bool gravityChanged) {
 
 // Whether it is time to look which regions rest: at least as often as a fall through a spacing takes.
 bool regionsAreDue() {
-  return params.regionsX != 0u && (control.wakesAll + control.regionsDue != 0u || control.regionTime > params.spacing * inversesqrt(params.layerHead));
+  bool late = control.regionTime > params.spacing * inversesqrt(params.layerHead);
+  return params.regionsX != 0u && (late || control.wakesAll != 0u || control.regionsDue != 0u);
 }
 
 // Regions are looked at when something begins to act.
