@@ -420,8 +420,8 @@ Expected<void> checkSnapshot(const FluidSnapshot& snapshot, const SnapshotShape&
   if (auto right = checkBodies(snapshot); !right) return right;
   if (auto right = checkPressures(snapshot); !right) return right;
   if (auto right = checkFlows(snapshot, shape); !right) return right;
-  if (auto right = checkRegions(snapshot, shape); !right) return right;
-  return checkNeighbors(snapshot, sums, shape);
+  if (auto right = checkNeighbors(snapshot, sums, shape); !right) return right;
+  return checkRegions(snapshot, shape);
 }
 
 void cellStarts(std::span<const uint32_t> cell, std::span<uint32_t> start) {

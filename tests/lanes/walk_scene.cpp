@@ -107,7 +107,7 @@ Outcome walk(const WalkScene& scene, const EmbeddedShader& shader, uint32_t subg
   }
   const Program program(shader.words, constants);
   FluidControl control{};
-  control.count = scene.count();
+  control.count = control.solved = scene.count();
   control.step = control.nextStep = control.warmStep = 0.001f;
   control.relaxation = control.nextRelaxation = 0.5f;
   Memory memory;

@@ -35,7 +35,7 @@ inline offline::Checkpoint seedCheckpoint() {
   c.keys = {{"fluid.spacing", "0.1"}, {"start", "0123456789abcdef"}};
   FluidSnapshot& s = c.fluid;
   FluidControl control{};
-  control.count = 6;
+  control.count = control.solved = 6;
   control.desiredStep = 1e-3f;
   FluidSums sums{};
   sums.overflow = 1;
