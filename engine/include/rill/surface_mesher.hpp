@@ -4,7 +4,7 @@
 //   auto mesher = rill::SurfaceMesher::create(device, {.capacity = state.capacity});
 //   if (!mesher) return fail(mesher.error().message);
 //   const rill::SurfaceMesh mesh = mesher->addTo(graph, state);  // every frame in which the mesh is wanted
-//   graph.pass("draw water", [&](rill::Pass& pass) {  // reads mesh.counts with Use::Indirect, for vkCmdDrawIndexedIndirect
+//   const rill::Ticket counts = graph.readback(mesh.counts);  // or a pass of the host reads them with Use::Indirect and draws mesh.indices
 //
 // The mesh is closed everywhere, along walls too: each edge belongs to exactly two triangles. A plane surface lies half a spacing outside
 // the outermost particles, so that the enclosed volume is that of the fluid.
