@@ -34,9 +34,7 @@ void main() {
   control.solidSpeed = max(params.solidSpeed, push.drivenSpeed);
   control.pulls = push.pulls;
   sleepThrough(push.drives > 0u || push.pulls > 0u);
-  vec3 gravityBefore = vec3(control.gravityX, control.gravityY, control.gravityZ);
   gravityAt();
-  if (vec3(control.gravityX, control.gravityY, control.gravityZ) != gravityBefore) control.wakesAll = 1u;
   float acceleration = length(vec3(control.gravityX, control.gravityY, control.gravityZ));
   control.speed = uintBitsToFloat(sums.speedMax);
   // fluid beside an open mouth is in motion, but the initial pressure is that of fluid at rest

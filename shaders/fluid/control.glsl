@@ -86,14 +86,12 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.substeps += 1u;
     addTime(control.step);
     control.travel += (control.speed + solidSpeed) * control.step;
-    vec3 gravityBefore = vec3(control.gravityX, control.gravityY, control.gravityZ);
-    gravityAt();
+    bool gravityChanged = gravityAt();
     vec3 gravity = vec3(control.gravityX, control.gravityY, control.gravityZ);
     float acceleration = length(gravity);
     float tolerable = movingParticles() > 0u ? tolerableStep(error) : control.desiredStep;  // else there is no error to go by
     control.desiredStep = plannedStep(tolerable, cflStep(acceleration, control.head));
-    accountRest(error, gravity != gravityBefore);
-    if (gravity != gravityBefore) control.wakesAll = 1u;
+    accountRest(error, gravityChanged);
     control.regionTime += control.step;
     noticeCauses();
     if (control.timeLeft < 1.0e-4 * control.step) control.timeLeft = 0.0;

@@ -9,8 +9,9 @@ void addTime(float step) {
   control.timeLow = rest;
 }
 
-// Gravity from the last schedule entry up to the present time; entry 0 is the scene's own, at time 0.
-void gravityAt() {
+// Gravity from the last schedule entry up to the present time; entry 0 is the scene's own, at time 0. Returns whether it has changed.
+bool gravityAt() {
+  vec3 before = vec3(control.gravityX, control.gravityY, control.gravityZ);
   for (uint n = 0u; n < params.gravityChanges && control.gravityIndex < params.gravityChanges; ++n) {
     vec4 change = gravityChanges[control.gravityIndex];
     if (change.w > control.timeHigh + 1.0e-7) break;
@@ -19,5 +20,8 @@ void gravityAt() {
     control.gravityZ = change.z;
     control.gravityIndex += 1u;
   }
+  bool changed = vec3(control.gravityX, control.gravityY, control.gravityZ) != before;
+  if (changed) control.wakesAll = 1u;
+  return changed;
 }
 #endif

@@ -8,7 +8,7 @@ RILL_RECORDS_BEGIN
 RILL_CONST float kMeshFitRadius = 2.0f;      // particles within it shape a particle's ellipsoid
 RILL_CONST float kMeshStretch = 1.75f;       // of the ellipsoids of a plane surface, along it
 RILL_CONST float kMeshFlat = 0.35f;          // ratio of variances across and along, up to which the stretch is whole
-RILL_CONST float kMeshRound = 0.8f;          // and from which there is none
+RILL_CONST float kMeshRound = 0.8f;          // the same ratio, at and above which an ellipsoid is a ball
 RILL_CONST float kMeshAlong = 0.2f;          // variance, in squared spacings, from which there are particles along an axis
 RILL_CONST float kMeshSheetSum = 0.66f;      // sum of kernels at a particle below which its amplitude is raised: drops, threads, rims
 RILL_CONST float kMeshPower = 1.5f;          // by this power of the ratio
