@@ -7,6 +7,7 @@
 #include "bench/suites/suites.hpp"
 #include "bench/workbench.hpp"
 #include "core/words.hpp"
+#include "sort/dispatches.hpp"
 #include "sort/key_sort.hpp"
 
 namespace rill::bench {
@@ -81,7 +82,7 @@ Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const Key
   if (!order) return order.error();
   Buffer start;
   if (desc.start) {
-    auto made = workbench.make("bench start", (desc.keyRange + 1) * sizeof(uint32_t));
+    auto made = workbench.make("bench start", paddedWords(desc.keyRange + 1) * sizeof(uint32_t));
     if (!made) return made.error();
     start = std::move(*made);
   }
@@ -95,11 +96,16 @@ Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const Key
   samples.total_ms = std::move(taken->total_ms);
   const auto result = workbench.download<uint32_t>(*order);
   if (!result) return result.error();
-  size_t wrong = 0;
-  for (size_t slot = 0; slot < expected.size(); ++slot) wrong += (*result)[slot] != expected[slot].second;
+  size_t wrong = 0, first = expected.size();
+  for (size_t slot = expected.size(); slot-- > 0;) {
+    if ((*result)[slot] == expected[slot].second) continue;
+    wrong += 1;
+    first = slot;
+  }
   if (wrong > 0)
     report.failures.push_back(name + ", " + (desc.method == SortMethod::Counting ? "counting" : "radix") + ": " + std::to_string(wrong) +
-                              " entries differ from std::stable_sort");
+                              " entries differ from std::stable_sort: at " + std::to_string(first) + " expected " +
+                              std::to_string(expected[first].second) + ", found " + std::to_string((*result)[first]));
   return samples;
 }
 
