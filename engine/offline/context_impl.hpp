@@ -51,6 +51,8 @@ class ContextImpl {
   /// NoDevice, with the device's name and the reason, if it cannot be used with `desc`.
   Expected<void> usable(VkPhysicalDevice handle, const ContextDesc& desc) const;
   bool offers(const char* extension, void* features) const;
+  /// The version of Vulkan that the installed validation layer knows; 0 if none is installed.
+  uint32_t validatedVersion() const;
   Expected<void> makeDevice(const ContextDesc& desc);
   // context.cpp
   Expected<void> makeFrames(uint32_t count);

@@ -1,6 +1,7 @@
 // Vulkan setup: loader, instance, validation, choice of device.
 #include <dlfcn.h>
 
+#include <cstring>
 #include <optional>
 
 #include "gpu/function_table.hpp"
@@ -175,6 +176,17 @@ bool ContextImpl::offers(const char* extension, void* features) const {
   return true;
 }
 
+uint32_t ContextImpl::validatedVersion() const {
+  const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(get(nullptr, "vkEnumerateInstanceLayerProperties"));
+  uint32_t count = 0;
+  if (!enumerate || enumerate(&count, nullptr) != VK_SUCCESS) return 0;
+  std::vector<VkLayerProperties> layers(count);
+  if (enumerate(&count, layers.data()) < VK_SUCCESS) return 0;
+  for (const VkLayerProperties& layer : layers)
+    if (std::strcmp(layer.layerName, kValidationLayer) == 0) return layer.specVersion;
+  return 0;
+}
+
 Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
   DeviceRequirements needs;
   if (auto ok = appendRequired(get, instance, physicalDevice, needs); !ok) return ok;
@@ -187,7 +199,9 @@ Expected<void> ContextImpl::makeDevice(const ContextDesc& desc) {
                                                                 nullptr, VK_FALSE};
   VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR uniform{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR, nullptr, VK_FALSE};
-  if (offers(VK_KHR_SHADER_MAXIMAL_RECONVERGENCE_EXTENSION_NAME, &maximal) && maximal.shaderMaximalReconvergence) {
+  // A layer older than the extension takes its shaders for errors.
+  const bool mayBeMaximal = !desc.validation || validatedVersion() >= VK_MAKE_API_VERSION(0, 1, 3, 276);
+  if (mayBeMaximal && offers(VK_KHR_SHADER_MAXIMAL_RECONVERGENCE_EXTENSION_NAME, &maximal) && maximal.shaderMaximalReconvergence) {
     extensions.push_back(VK_KHR_SHADER_MAXIMAL_RECONVERGENCE_EXTENSION_NAME);
     own.pNext = &maximal;
   } else if (offers(VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME, &uniform) && uniform.shaderSubgroupUniformControlFlow) {
