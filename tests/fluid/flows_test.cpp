@@ -456,7 +456,7 @@ TEST_F(FlowsTest, GoesOnFromASnapshotBitForBit) {
   for (int frame = 0; frame < 4; ++frame) whole->advance(1.0 / 60);
   auto again = start(t, &half);
   for (int frame = 0; frame < 4; ++frame) again->advance(1.0 / 60);
-  EXPECT_TRUE(again->saved() == whole->saved());
+  EXPECT_EQ(firstDifference(again->saved(), whole->saved()), "");
   EXPECT_GT(whole->stats().ledger.emitted, 20u);
   EXPECT_GT(whole->stats().ledger.drained, 10u);
 }
@@ -503,7 +503,7 @@ TEST_F(FlowsTest, PiecesOfAnAdvanceDoNotMatter) {
     if (!first)
       first = std::move(state);
     else
-      EXPECT_TRUE(state == *first) << piece;
+      EXPECT_EQ(firstDifference(state, *first), "") << piece;
   }
 }
 

@@ -146,6 +146,47 @@ void addOutsideSolids(Trial& trial, const std::vector<glm::dvec3>& points) {
   }
 }
 
+std::string firstDifference(const FluidSnapshot& a, const FluidSnapshot& b) {
+  std::string found;
+  const auto compare = [&](const char* name, const auto& x, const auto& y) {
+    if (!found.empty() || x == y) return;
+    found = name;
+    if (x.size() != y.size()) {
+      found += ": " + std::to_string(x.size()) + " and " + std::to_string(y.size()) + " values";
+      return;
+    }
+    size_t count = 0, first = x.size();
+    for (size_t i = x.size(); i-- > 0;) {
+      if (x[i] == y[i]) continue;
+      ++count;
+      first = i;
+    }
+    found += ": " + std::to_string(count) + " of " + std::to_string(x.size()) + " differ, the first at " + std::to_string(first) + ", " +
+             ::testing::PrintToString(x[first]) + " and " + ::testing::PrintToString(y[first]);
+  };
+  compare("control", a.control, b.control);
+  compare("sums", a.sums, b.sums);
+  compare("solids", a.solids, b.solids);
+  compare("bodies", a.bodies, b.bodies);
+  compare("slips", a.slips, b.slips);
+  compare("loads", a.loads, b.loads);
+  compare("pressures", a.pressures, b.pressures);
+  compare("flows", a.flows, b.flows);
+  compare("regions", a.regions, b.regions);
+  compare("id", a.id, b.id);
+  compare("position", a.position, b.position);
+  compare("velocity", a.velocity, b.velocity);
+  compare("warmAcceleration", a.warmAcceleration, b.warmAcceleration);
+  compare("warmStart", a.warmStart, b.warmStart);
+  compare("rest", a.rest, b.rest);
+  compare("nearSolids", a.nearSolids, b.nearSolids);
+  compare("neighborCount", a.neighborCount, b.neighborCount);
+  compare("neighbors", a.neighbors, b.neighbors);
+  compare("cell", a.cell, b.cell);
+  if (found.empty() && !(a == b)) found = "listCapacity";
+  return found;
+}
+
 bool Snapshot::finite() const {
   for (const auto* all : {&x, &v})
     for (const glm::dvec3& p : *all)

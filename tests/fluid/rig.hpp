@@ -86,6 +86,9 @@ struct Difference {
   size_t worst = 0;
 };
 
+/// The first field of a state that differs, with how many values of it and the first one; empty if the states are equal.
+std::string firstDifference(const FluidSnapshot& a, const FluidSnapshot& b);
+
 class FluidTest : public GpuTest {
  protected:
   /// One fluid with the graph that runs it.

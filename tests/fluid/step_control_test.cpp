@@ -147,8 +147,10 @@ TEST_F(StepControlTest, KeepsTimeInLongRuns) {
   t.x = {{0, 0, 0}};
   auto run = start(t);
   run->advance(10000);
+  const double late = run->progress().time_s;
+  EXPECT_NEAR(late, 10000, 1e-3) << "a device's division is good to 2.5 ulp";
   for (int n = 0; n < 40; ++n) run->advance(1e-4, 6);
-  EXPECT_NEAR(run->progress().time_s, 10000 + 40e-4, 1e-6);
+  EXPECT_NEAR(run->progress().time_s, late + 40e-4, 1e-6);
 }
 
 // The preview's setting: four iterations, long steps, no tolerance.
@@ -183,7 +185,7 @@ TEST_F(StepControlTest, GravityFollowsItsSchedule) {
   t.x = {{0, 0, 0}};
   auto run = start(t);
   run->advance(0.5);
-  EXPECT_EQ(run->snapshot().v[0], glm::dvec3(0.125, -0.5, 2));
+  EXPECT_LT(glm::length(run->snapshot().v[0] - glm::dvec3(0.125, -0.5, 2)), 1e-6);
   const FluidStats stats = run->stats();
   EXPECT_NEAR(stats.potential_J, -t.scene.fluid.density * std::pow(t.d(), 3) * 8 * run->measured().x[0].z, 1e-5);
 }
