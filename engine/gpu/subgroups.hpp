@@ -20,8 +20,8 @@ struct ClusterChoice {
 };
 
 /// A cluster of 0 if the device cannot do it: its subgroups may be larger than `workgroup`, and no size can be required. Without control
-/// over the size, clusters are of the smallest size that the device may take. With it, subgroups are of 32, or 16 on Intel, whose compilers
-/// spill registers at 32; as near to that as the device goes.
+/// over the size, clusters are as for the smallest size that the device may take. With it, subgroups are of 32, or 16 on Intel, whose
+/// compilers spill registers at 32; as near to that as the device goes. Clusters are of 8 in subgroups of 32 or more, else subgroups.
 ClusterChoice chooseCluster(const DeviceInfo& info, bool canRequireSize, uint32_t vendor, uint32_t workgroup);
 
 /// Full subgroups of any size, if these divide the workgroup; else no need.
