@@ -5,6 +5,7 @@ namespace {
 
 // Latencies: 1 us a dispatch and 3 us a barrier on a large GPU, more where caches are flushed through a slower memory.
 constexpr Card kCards[] = {
+    {"H200", 4800, 1, 3, "NVIDIA H200 data sheet: GPU memory bandwidth 4.8 TB/s"},
     {"H100", 3350, 1, 3, "NVIDIA H100 data sheet: H100 SXM, GPU memory bandwidth 3.35 TB/s"},
     {"RTX 4070", 504, 1, 3, "NVIDIA GeForce RTX 4070: 192 bits of GDDR6X at 21 Gbit/s"},
     {"RX 7800 XT", 624, 1, 3, "AMD Radeon RX 7800 XT: memory bandwidth up to 624 GB/s (256 bits at 19.5 Gbit/s)"},
