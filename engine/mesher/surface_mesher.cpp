@@ -6,6 +6,7 @@
 
 #include "core/words.hpp"
 #include "gpu/module_pipelines.hpp"
+#include "gpu/texel_reads.hpp"
 #include "graph/graph_impl.hpp"
 #include "graph/shader_pass.hpp"
 #include "mesher/cube_table.hpp"
@@ -110,7 +111,8 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
   if (auto ok = scan(impl->rowScan_, impl->rows_ + 1); !ok) return ok.error();
 
   ModulePipelines make(device);
-  const auto pipeline = [&](std::string_view shader) { return make.make(shader, false, {{"BIN_CELLS", impl->binCells_}}); };
+  const bool texels = usesTexelReads(device, std::max({impl->corners_, 3 * particles, reached, uint64_t{limits.maxVertices}}));
+  const auto pipeline = [&](std::string_view shader) { return make.make(shader, texels, {{"BIN_CELLS", impl->binCells_}}); };
   impl->pipelines_ = {.keys = pipeline("mesher/keys"),
                       .flag = pipeline("mesher/flag"),
                       .compact = pipeline("mesher/compact"),

@@ -2,11 +2,12 @@
 // The ellipsoid of each particle: ellipsoids() of engine/reference/surface_mesh.hpp.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kMeshGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Places { uvec4 places[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Neighbors { uint neighbors[]; };
+READ_UINT4(0, places)
+READ_UINT(1, start)
+READ_UINT(2, neighbors)
 // Three a particle: center and squared radius; xx, xy, xz of the matrix to the kernel and the amplitude; yy, yz, zz.
 layout(std430, set = 0, binding = 3) writeonly buffer Ellipsoids { vec4 ellipsoids[]; };
 layout(std430, set = 0, binding = 4) buffer Surface { uint surface[]; };
@@ -19,7 +20,7 @@ float weights = 0.0, sum = 0.0;
 vec3 first = vec3(0.0), straight = vec3(0.0), mixed = vec3(0.0);  // mixed: xy, xz, yz
 
 void visit(uint slot) {
-  const vec3 to = uintBitsToFloat(places[slot].xyz) - center;
+  const vec3 to = uintBitsToFloat(placesAt(slot).xyz) - center;
   const float square = dot(to, to);
   if (square >= kMeshFitRadius * kMeshFitRadius) return;
   const float r = sqrt(square), part = r / kMeshFitRadius, weight = 1.0 - part * part * part;
@@ -55,9 +56,9 @@ void swapIfLess(inout vec3 values, inout mat3 axes, int i, int j) {
 
 void main() {
   const uint slot = flatInvocation();
-  if (slot >= start[mesh.max_blocks * kMeshBlockBins]) return;
-  center = uintBitsToFloat(places[slot].xyz);
-  const uint bin = places[slot].w;
+  if (slot >= startAt(mesh.max_blocks * kMeshBlockBins)) return;
+  center = uintBitsToFloat(placesAt(slot).xyz);
+  const uint bin = placesAt(slot).w;
   if (!walk(bin / kMeshBlockBins, ivec3(binOf(bin % kMeshBlockBins)), binSide(), kMeshFitRadius)) atomicAdd(counts[kMeshBoundHits], 1u);
 
   const vec3 mean = first / max(weights, 1e-6);

@@ -2,13 +2,14 @@
 // Signed distance to the surface at each corner, in spacings, at most 1: from the sum of the particles' kernels.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kMeshGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Blocks { uint blocks[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Neighbors { uint neighbors[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Ellipsoids { vec4 ellipsoids[]; };
-layout(std430, set = 0, binding = 4) readonly buffer States { uint states[]; };
+READ_UINT(0, blocks)
+READ_UINT(1, start)
+READ_UINT(2, neighbors)
+READ_FLOAT4(3, ellipsoids)
+READ_UINT(4, states)
 layout(std430, set = 0, binding = 5) buffer Counts { uint counts[]; };
 layout(std430, set = 0, binding = 6) writeonly buffer Field { float field[]; };
 #include "mesher/mesh_kernel.glsl"
@@ -18,11 +19,11 @@ vec3 point;
 float sum = 0.0;
 
 void visit(uint slot) {
-  const vec4 sphere = ellipsoids[3u * slot];
+  const vec4 sphere = ellipsoidsAt(3u * slot);
   const vec3 to = point - sphere.xyz;
   if (dot(to, to) >= sphere.w) return;
-  const vec4 a = ellipsoids[3u * slot + 1u];
-  const vec3 b = ellipsoids[3u * slot + 2u].xyz;
+  const vec4 a = ellipsoidsAt(3u * slot + 1u);
+  const vec3 b = ellipsoidsAt(3u * slot + 2u).xyz;
   sum += a.w * meshKernel(length(vec3(dot(a.xyz, to), dot(vec3(a.y, b.xy), to), dot(vec3(a.z, b.yz), to))));
 }
 
@@ -30,12 +31,12 @@ void main() {
   const uint i = flatInvocation(), block = i / kBlockCorners;
   if (block >= counts[kMeshBlocksNeeded]) return;
   const uint corner = i % kBlockCorners, bin = corner / kBinCorners;
-  const uint state = states[block * kMeshBlockBins + bin];
+  const uint state = statesAt(block * kMeshBlockBins + bin);
   if (state != kMeshNear) {
     field[i] = state == kMeshInside ? -1.0 : 1.0;
     return;
   }
-  point = vec3(blockOf(blocks[block]) * int(kBlockCells) + ivec3(cornerOf(corner))) * mesh.cell;
+  point = vec3(blockOf(blocksAt(block)) * int(kBlockCells) + ivec3(cornerOf(corner))) * mesh.cell;
   if (!walk(block, ivec3(binOf(bin)), float(BIN_CELLS - 1u) * mesh.cell, kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
   field[i] = meshDistance(sum);
 }

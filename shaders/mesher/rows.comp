@@ -3,11 +3,12 @@
 // at the lower end of its edge.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kMeshGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Neighbors { uint neighbors[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Mixed { uint mixed[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Field { float field[]; };
+READ_UINT(0, neighbors)
+READ_UINT(1, mixed)
+READ_FLOAT(2, field)
 layout(std430, set = 0, binding = 3) readonly buffer Table { uint table[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Counts { uint counts[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Cases { uint cases[]; };
@@ -18,7 +19,7 @@ layout(std430, set = 0, binding = 7) writeonly buffer RowTriangles { uint row_tr
 
 uint insideAt(uint block, uvec3 corner) {
   const uint index = cornerIndex(block, corner);
-  return index != kMeshNone && field[index] < 0.0 ? 1u : 0u;
+  return index != kMeshNone && fieldAt(index) < 0.0 ? 1u : 0u;
 }
 // Bits 0 to 3: the corners of a cell's lower side along z.
 uint slice(uint block, uvec3 corner) {
@@ -32,7 +33,7 @@ void main() {
   const uvec2 at = uvec2(row % kBlockRows / kBlockCells, row % kBlockCells);
   uint vertices = 0u, triangles = 0u;
   for (uint bin = 0u; bin < 4u; ++bin) {
-    if (mixed[block * kMeshBlockBins + binIn(uvec3(at / BIN_CELLS, bin))] == 0u) continue;
+    if (mixedAt(block * kMeshBlockBins + binIn(uvec3(at / BIN_CELLS, bin))) == 0u) continue;
     uint lower = slice(block, uvec3(at, bin * BIN_CELLS));
     for (uint k = 0u; k < BIN_CELLS; ++k) {
       const uvec3 cell = uvec3(at, bin * BIN_CELLS + k);

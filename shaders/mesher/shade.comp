@@ -2,16 +2,17 @@
 // Position, normal and velocity of each vertex: from its edge, the slope of the sum of kernels, and their mean over particles.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kMeshGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Blocks { uint blocks[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Neighbors { uint neighbors[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Ellipsoids { vec4 ellipsoids[]; };
+READ_UINT(0, blocks)
+READ_UINT(1, start)
+READ_UINT(2, neighbors)
+READ_FLOAT4(3, ellipsoids)
 layout(std430, set = 0, binding = 4) readonly buffer Field { float field[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Edges { uint edges[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Order { uint order[]; };
-layout(std430, set = 0, binding = 7) readonly buffer Velocity { vec4 velocity[]; };
+READ_UINT(5, edges)
+READ_UINT(6, order)
+READ_FLOAT4(7, velocity)
 layout(std430, set = 0, binding = 8) buffer Counts { uint counts[]; };
 layout(std430, set = 0, binding = 9) writeonly buffer VertexPosition { vec4 vertex_position[]; };
 layout(std430, set = 0, binding = 10) writeonly buffer VertexNormal { vec4 vertex_normal[]; };
@@ -25,31 +26,31 @@ float sum = 0.0;
 vec3 slope = vec3(0.0), moved = vec3(0.0);
 
 void visit(uint slot) {
-  const vec4 sphere = ellipsoids[3u * slot];
+  const vec4 sphere = ellipsoidsAt(3u * slot);
   const vec3 to = point - sphere.xyz;
   if (dot(to, to) >= sphere.w) return;
-  const vec4 a = ellipsoids[3u * slot + 1u];
-  const vec3 b = ellipsoids[3u * slot + 2u].xyz;
+  const vec4 a = ellipsoidsAt(3u * slot + 1u);
+  const vec3 b = ellipsoidsAt(3u * slot + 2u).xyz;
   const mat3 toKernel = mat3(a.xyz, vec3(a.y, b.xy), vec3(a.z, b.yz));
   const vec3 inner = toKernel * to;
   const float r = length(inner), value = a.w * meshKernel(r);
   if (value == 0.0) return;
   sum += value;
   slope += a.w * meshKernelSlope(r) / max(r, 1e-6) * (toKernel * inner);
-  if (mesh.velocities != 0u) moved += value * velocity[order[slot]].xyz;
+  if (mesh.velocities != 0u) moved += value * velocityAt(orderAt(slot)).xyz;
 }
 
 void main() {
   const uint i = flatInvocation();
   if (i >= counts[kMeshVertices]) return;
-  const uint edge = edges[i], axis = edge & 3u, from = edge >> 2u, block = from / kBlockCorners;
+  const uint edge = edgesAt(i), axis = edge & 3u, from = edge >> 2u, block = from / kBlockCorners;
   const uvec3 corner = cornerOf(from % kBlockCorners);
   uvec3 step = uvec3(0u);
   step[axis] = 1u;
   const uint to = cornerIndex(block, corner + step);
   const float a = field[from], b = to == kMeshNone ? 1.0 : field[to];
   const float t = clamp(a / (a - b), kMeshEdgeMargin, 1.0 - kMeshEdgeMargin);
-  const vec3 base = vec3(blockOf(blocks[block]) * int(kBlockCells) + ivec3(corner)) * mesh.cell, along = vec3(step) * mesh.cell;
+  const vec3 base = vec3(blockOf(blocksAt(block)) * int(kBlockCells) + ivec3(corner)) * mesh.cell, along = vec3(step) * mesh.cell;
   point = base + t * along;
   if (!walk(block, ivec3(corner / BIN_CELLS), binSide(), kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
 

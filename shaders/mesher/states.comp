@@ -2,11 +2,12 @@
 // The state of each bin: near the surface within a bin of a surface particle, else inside with particles in one of the bins around.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kMeshGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Start { uint start[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Neighbors { uint neighbors[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Surface { uint surface[]; };
+READ_UINT(0, start)
+READ_UINT(1, neighbors)
+READ_UINT(2, surface)
 layout(std430, set = 0, binding = 3) readonly buffer Counts { uint counts[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer States { uint states[]; };
 
@@ -19,12 +20,12 @@ void main() {
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z) {
         const ivec3 at = bin + ivec3(x, y, z);
-        const uint other = neighbors[neighborSlot(block, at >> 2)];
+        const uint other = neighborsAt(neighborSlot(block, at >> 2));
         if (other == kMeshNone) continue;
         const uint near = other * kMeshBlockBins + binIn(uvec3(at & 3));
-        if (surface[near] != 0u)
+        if (surfaceAt(near) != 0u)
           state = kMeshNear;
-        else if (state == kMeshOutside && start[near + 1u] > start[near])
+        else if (state == kMeshOutside && startAt(near + 1u) > startAt(near))
           state = kMeshInside;
       }
   states[i] = state;

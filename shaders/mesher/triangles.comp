@@ -2,12 +2,13 @@
 // The triangles of the cells, in the order of the rows.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kMeshGroup) in;
-layout(std430, set = 0, binding = 0) readonly buffer Neighbors { uint neighbors[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Mixed { uint mixed[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Cases { uint cases[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Table { uint table[]; };
+READ_UINT(0, neighbors)
+READ_UINT(1, mixed)
+READ_UINT(2, cases)
+READ_UINT(3, table)
 layout(std430, set = 0, binding = 4) readonly buffer RowTriangles { uint row_triangles[]; };
 layout(std430, set = 0, binding = 5) readonly buffer FirstVertex { uint first_vertex[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Counts { uint counts[]; };
@@ -22,7 +23,7 @@ uint vertexOn(uint block, uvec3 cell, uint edge) {
   corner[lower] += edge & 1u;
   corner[higher] += edge >> 1u & 1u;
   const uint owner = cornerIndex(block, corner);
-  return owner == kMeshNone ? 0u : first_vertex[owner] + uint(bitCount(crossings(cases[owner]) & ((1u << axis) - 1u)));
+  return owner == kMeshNone ? 0u : first_vertex[owner] + uint(bitCount(crossings(casesAt(owner)) & ((1u << axis) - 1u)));
 }
 
 void main() {
@@ -33,8 +34,8 @@ void main() {
   const uvec2 at = uvec2(row % kBlockRows / kBlockCells, row % kBlockCells);
   for (uint z = 0u; z < kBlockCells; ++z) {
     const uvec3 cell = uvec3(at, z);
-    if (mixed[block * kMeshBlockBins + binIn(cell / BIN_CELLS)] == 0u) continue;
-    const uint inside = cases[block * kBlockCorners + cornerIn(cell)], low = table[2u * inside], high = table[2u * inside + 1u];
+    if (mixedAt(block * kMeshBlockBins + binIn(cell / BIN_CELLS)) == 0u) continue;
+    const uint inside = casesAt(block * kBlockCorners + cornerIn(cell)), low = tableAt(2u * inside), high = tableAt(2u * inside + 1u);
     for (uint k = 0u; k < 3u * (high >> 28u); ++k)
       indices[3u * next + k] = vertexOn(block, cell, (k < 8u ? low >> 4u * k : high >> 4u * (k - 8u)) & 15u);
     next += high >> 28u;
