@@ -24,6 +24,25 @@ const Json* resultOf(const Json& report, const std::string& name) {
   return nullptr;
 }
 
+TEST(RillBench, KeepsWhatItMeasuredBeforeTheDeviceWasLost) {
+  const TemporaryFolder folder;
+  const std::string program = std::string(RILL_BINARY_DIR) + "/apps/bench/rill-bench";
+  const auto free = [&](const char* plan, const char* json) {
+    Child::Environment failing{
+        {"VK_LAYER_PATH", RILL_LAYERS_FOLDER}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RILL_failing"}, {"RILL_TEST_FAIL", plan}};
+    return Child({program, "validation", "--quick", "--only", "free", "--json", json}, folder.string(), failing).wait();
+  };
+  EXPECT_EQ(free("vkQueueSubmit2 20 -4", "first.json").code, 1) << "in the first of two experiments";
+  EXPECT_FALSE(std::filesystem::exists(folder / "first.json"));
+  const Outcome outcome = free("vkQueueSubmit2 200 -4", "second.json");
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const Json report = Json::parse(contentOf(folder / "second.json"), nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << outcome.err;
+  EXPECT_EQ(report["results"].size(), 1u);
+  ASSERT_EQ(report["failures"].size(), 1u);
+  EXPECT_NE(report["failures"][0].get<std::string>().find("VK_ERROR_DEVICE_LOST"), std::string::npos) << report["failures"].dump();
+}
+
 TEST(RillBench, SortWritesTableAndJson) {
   const TemporaryFolder folder;
   const Outcome outcome = bench({"sort", "--quick", "--only", "-1k", "--json", "out.json"}, folder.string());

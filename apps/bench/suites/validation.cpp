@@ -163,7 +163,11 @@ Expected<Report> runValidation(Bench& bench) {
     if (bench.stopped()) break;
     bench.step(experiment.name());
     const auto outcome = experiment.run(bench);
-    if (!outcome) return outcome.error();
+    if (!outcome && findings.report.results.empty()) return outcome.error();
+    if (!outcome) {  // what was measured before is worth hours
+      findings.report.failures.push_back(experiment.name() + ": " + outcome.error().message + "; what follows was not run");
+      break;
+    }
     if (bench.stopped()) break;  // incomplete runs have no figures
     findings.add(experiment, *outcome);
   }

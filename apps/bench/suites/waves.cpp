@@ -141,18 +141,25 @@ class Waves {
       parts += group.experiments.size() * (kParts + (group.row ? 0 : bench_.options().repeat - 1));
     }
     bench_.plan(parts, "part");
+    bool failed = false;
     for (const WaveGroup& group : groups) {
+      if (failed) break;
       std::vector<WaveResult> results;
       for (const Experiment& experiment : group.experiments) {
         if (bench_.stopped()) break;
         bench_.step(experiment.name(), kParts);
         auto outcome = experiment.run(bench_);
-        if (!outcome) return outcome.error();
+        if (!outcome && report_.results.empty()) return outcome.error();
+        if (!outcome) {  // what was measured before is worth hours
+          report_.failures.push_back(experiment.name() + ": " + outcome.error().message + "; what follows was not run");
+          failed = true;
+          break;
+        }
         if (bench_.stopped()) break;  // incomplete runs have no figures
         results.push_back({experiment, std::move(*outcome)});
         add(results.back());
       }
-      if (!group.row)
+      if (!group.row && !failed)
         if (auto repeated = repeatSettings(results); !repeated) return repeated.error();
       if (results.empty()) continue;
       if (group.row)
