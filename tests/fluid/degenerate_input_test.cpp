@@ -87,8 +87,8 @@ TEST_F(DegenerateInputTest, SortsFullCellsByDigits) {
   }
 }
 
-// Symplectic Euler's parabola x0 + n dt v + n (n + 1) / 2 dt^2 g. All numbers are sums of few powers of two: only the step is rounded, where
-// a device's division is (2.5 ulp are allowed).
+// Symplectic Euler's parabola x0 + n dt v + n (n + 1) / 2 dt^2 g. All numbers are sums of few powers of two: only the step is rounded,
+// where a device's division is (2.5 ulp are allowed).
 TEST_F(DegenerateInputTest, LoneParticleFollowsTheParabola) {
   Trial t = trial();
   t.step = 1.0 / 1024;
