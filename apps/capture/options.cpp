@@ -28,8 +28,8 @@ constexpr uint64_t kMaxPixels = 1ull << 25;  // an image is one buffer of 128 Mi
 
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
-  std::string scene, frames, fps, size, out, view, video, stats, particles, device, checkpoint, checkpointEvery, resume, play, orbit, graph,
-      reads;
+  std::string scene, frames, fps, size, out, view, video, stats, particles, device, checkpoint, checkpointEvery, resume, play, orbit,
+      exposure, graph, reads;
   std::vector<std::string> set, require, exportAs;
   std::string meshFormat, meshCell;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false;
@@ -70,6 +70,7 @@ void declare(CLI::App& app, Raw& raw) {
   once("--size", raw.size, "image size in pixels (default: 1280x720)", "WxH", written);
   once("--view", raw.view, "view to draw: " + apps::viewNames() + " (default: final)", "VIEW", written);
   once("--orbit", raw.orbit, "rotate the camera about its target, in degrees per simulated second", "DEG_PER_S", written);
+  once("--exposure", raw.exposure, "brighten the view final by EV stops, each twice the light (-10 to 10, default: 0)", "EV", written);
   once("--video", raw.video, "also write the images as a video (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
   app.add_flag("--no-images", raw.noImages, "write no image files; without --video render none")->group(written);
   list("--export", raw.exportAs,
@@ -162,6 +163,14 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
     const auto orbit = numberIn<double>(raw.orbit);
     if (!orbit || !(std::abs(*orbit) <= 36000)) return badInput("--orbit", raw.orbit, "a number of degrees from -36000 to 36000");
     options.orbit_degPerS = *orbit;
+  }
+  if (given("--exposure")) {
+    const auto stops = numberIn<double>(raw.exposure);
+    if (!stops || !(std::abs(*stops) <= offline::kMaxExposure_stops))
+      return badInput("--exposure", raw.exposure, "a number of stops from -10 to 10");
+    if (options.view != "final")
+      return Error{ErrorKind::BadInput, "--exposure: the view " + options.view + " has none; expected --view final"};
+    options.exposure_stops = *stops;
   }
   if (given("--export")) {
     for (const std::string& format : raw.exportAs) {

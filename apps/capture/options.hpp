@@ -28,6 +28,7 @@ struct Options {
   std::optional<std::filesystem::path> out;  ///< none: out/SCENE
   std::string view = "final";
   double orbit_degPerS = 0;                    ///< rotation of the camera about its target
+  double exposure_stops = 0;                   ///< of the view final
   std::optional<std::filesystem::path> video;  ///< video file of the images
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> graph;  ///< passes of the last image, in Graphviz's dot language

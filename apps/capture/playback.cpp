@@ -91,6 +91,7 @@ int runPlayback(const Options& options) {
   settings.reads = options.reads;
   settings.pipelineCache = apps::pipelineCacheFolder();
   settings.orbit_degPerS = options.orbit_degPerS;
+  settings.exposure_stops = options.exposure_stops;
   auto player = offline::Player::open(*std::move(scene), settings);
   if (!player) return refuse(player.error());
   if (auto ready = player->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());

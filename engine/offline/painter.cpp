@@ -77,6 +77,12 @@ Expected<void> Painter::check(std::string_view name, uint32_t width, uint32_t he
   return ParticleView::check(desc);
 }
 
+Expected<void> Painter::checkExposure(double stops) {
+  if (std::abs(stops) <= kMaxExposure_stops) return {};
+  return Error{ErrorKind::BadInput, "Options::exposure_stops is " + shortestNumber(stops) + "; expected a number from -" +
+                                        shortestNumber(kMaxExposure_stops) + " to " + shortestNumber(kMaxExposure_stops)};
+}
+
 Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t width, uint32_t height) {
   if (auto valid = check(name, width, height); !valid) return valid;
   const View* view = find(name);
@@ -146,7 +152,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
   targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);
   if (fluid.capacity > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, time_s, renderer.last.pixels);
-  return finish_.addTo(graph, targets.color, width, height);
+  return finish_.addTo(graph, targets.color, width, height, exposure_stops_);
 }
 
 void Painter::finish(Image& image, std::string_view name, double time_s) const {

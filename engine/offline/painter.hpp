@@ -25,9 +25,12 @@ uint64_t boundHits(const Graph& graph, const PictureTickets& tickets);
 /// Renders the views of a simulation.
 class Painter {
  public:
-  /// `scene` and `start` must outlive it.
-  Painter(const Scene& scene, const ParticleSet& start, double orbit_degPerS)
-      : scene_(scene), start_(start), orbit_degPerS_(orbit_degPerS) {}
+  /// `scene` and `start` must outlive it. `exposure_stops` as checkExposure() allows.
+  Painter(const Scene& scene, const ParticleSet& start, double orbit_degPerS, double exposure_stops = 0)
+      : scene_(scene), start_(start), orbit_degPerS_(orbit_degPerS), exposure_stops_(exposure_stops) {}
+
+  /// BadInput for a value that Options::exposure_stops does not allow.
+  static Expected<void> checkExposure(double stops);
 
   static std::span<const std::string_view> views();
   /// BadInput for an unknown view or an unsupported size. Needs no device.
@@ -51,7 +54,7 @@ class Painter {
 
   const Scene& scene_;
   const ParticleSet& start_;
-  double orbit_degPerS_;
+  double orbit_degPerS_, exposure_stops_;
   std::unique_ptr<ParticleView> particles_;
   std::optional<FluidRenderer> fluid_;
   std::unique_ptr<Scenery> scenery_;

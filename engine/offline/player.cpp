@@ -18,9 +18,11 @@ Error outOfMemory(const char* what) { return {ErrorKind::OutOfMemory, std::strin
 
 class Player::Impl {
  public:
-  Impl(Scene scene, double orbit_degPerS) : scene_(std::move(scene)), painter_(scene_, start_, orbit_degPerS) {}
+  Impl(Scene scene, const Options& options)
+      : scene_(std::move(scene)), painter_(scene_, start_, options.orbit_degPerS, options.exposure_stops) {}
 
   Expected<void> open(const Options& options) {
+    if (auto valid = Painter::checkExposure(options.exposure_stops); !valid) return valid;
     auto start = makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);
@@ -132,7 +134,7 @@ Player::Player(Player&&) noexcept = default;
 Player& Player::operator=(Player&&) noexcept = default;
 
 Expected<Player> Player::open(Scene scene, const Options& options) try {
-  auto impl = std::make_unique<Impl>(std::move(scene), options.orbit_degPerS);
+  auto impl = std::make_unique<Impl>(std::move(scene), options);
   if (auto opened = impl->open(options); !opened) return opened.error();
   return Player(std::move(impl));
 } catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }

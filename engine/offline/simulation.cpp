@@ -45,6 +45,7 @@ class Simulation::Impl {
   /// Uses the given particles, or makes those of the scene's fills.
   Expected<void> place(std::optional<ParticleSet> given) {
     if (auto valid = checkScene(scene_); !valid) return valid;
+    if (auto valid = Painter::checkExposure(options_.exposure_stops); !valid) return valid;
     constexpr double kShortestFrame = 1e-6;  // s; limits the number of frames of an advance
     if (!(options_.longestFrame_s >= kShortestFrame))
       return Error{ErrorKind::BadInput, "Options::longestFrame_s is " + shortestNumber(options_.longestFrame_s) + "; expected at least " +
@@ -435,7 +436,7 @@ class Simulation::Impl {
   std::vector<std::string> warnings_;
   std::optional<Context> context_;
   std::optional<Fluid> fluid_;
-  Painter painter_{scene_, start_, options_.orbit_degPerS};
+  Painter painter_{scene_, start_, options_.orbit_degPerS, options_.exposure_stops};
   // One graph per kind of frame, so that each keeps its memory plan.
   Graph advanceGraph_, measureGraph_, meshGraph_, renderGraph_;
   std::optional<SurfaceMesher> mesher_;

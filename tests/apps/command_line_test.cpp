@@ -32,33 +32,13 @@ TEST(CommandLine, HelpListsOptionsAndExamples) {
     const Outcome outcome = capture({option});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
-    for (const char* word : {"SCENE",
-                             "--frames",
-                             "--fps",
-                             "--size",
-                             "--out",
-                             "--view",
-                             "--stats",
-                             "--export",
-                             "--particles",
-                             "--set",
-                             "--device",
-                             "--require",
-                             "--explain",
-                             "--no-images",
-                             "--quiet",
-                             "--help",
-                             "--version",
-                             "--no-pass-times",
-                             "--checkpoint",
-                             "--checkpoint-every",
-                             "--resume",
-                             "--play",
-                             "--orbit",
-                             "--video",
-                             "Examples:",
-                             "Exit codes:",
-                             "final, particles, density"})
+    for (const char* word : {"SCENE",       "--frames",        "--fps",        "--size",
+                             "--out",       "--view",          "--stats",      "--export",
+                             "--particles", "--set",           "--device",     "--require",
+                             "--explain",   "--no-images",     "--quiet",      "--help",
+                             "--version",   "--no-pass-times", "--checkpoint", "--checkpoint-every",
+                             "--resume",    "--play",          "--orbit",      "--exposure",
+                             "--video",     "Examples:",       "Exit codes:",  "final, particles, density"})
       EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
 }
@@ -85,6 +65,9 @@ TEST(CommandLine, ErrorsNameOptionAndExpectedValue) {
   for (const char* bad : {"0", "-60", "nan", "inf", "60x"}) expectRefused({"scene.json", "--fps", bad}, {"--fps", "expected a number"});
   for (const char* bad : {"640", "640x", "x480", "640x480x2", "0x480", "640*480", "9000x10", "8192x8192"})
     expectRefused({"scene.json", "--size", bad}, {"--size", "as 1280x720"});
+  for (const char* bad : {"10.5", "-11", "nan", "inf", "bright", ""})
+    expectRefused({"scene.json", "--exposure", bad}, {"--exposure", "expected a number of stops from -10 to 10"});
+  expectRefused({"scene.json", "--exposure", "1", "--view", "depth"}, {"--exposure", "the view depth has none", "expected --view final"});
   expectRefused({"scene.json", "--export", "obj"}, {"--export", "expected ply, mesh, vtk or poses"});
   expectRefused({"scene.json", "--export", "mesh", "--mesh-format", "stl"}, {"--mesh-format", "\"stl\"", "ply, obj, glb or vtp"});
   expectRefused({"scene.json", "--export", "mesh", "--mesh-cell", "0.1"}, {"--mesh-cell", "0.1", "0.25 to 1"});

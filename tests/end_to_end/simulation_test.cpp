@@ -322,6 +322,26 @@ TEST(Simulation, RejectsInvalidArguments) {
   EXPECT_FALSE(Simulation::open(std::filesystem::path("missing.json")));
 }
 
+TEST(Simulation, ExposureBrightensFinalPicturesOnly) {
+  const auto sumOf = [](double stops, const std::string& view) {
+    auto simulation = open({.exposure_stops = stops});
+    const auto image = simulation->render(view, 64, 36);
+    EXPECT_TRUE(image) << image.error().message;
+    uint64_t sum = 0;
+    for (const uint8_t value : image->rgba) sum += value;
+    return sum;
+  };
+  EXPECT_LT(sumOf(-1, "final"), sumOf(0, "final"));
+  EXPECT_LT(sumOf(0, "final"), sumOf(1, "final"));
+  EXPECT_EQ(sumOf(0, "depth"), sumOf(1, "depth"));
+  for (const double bad : {10.5, -11.0, double(NAN)}) {
+    const auto refused = Simulation::open(dam(), {.exposure_stops = bad});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("Options::exposure_stops is "), std::string::npos) << refused.error().message;
+    EXPECT_FALSE(Player::open(dam(), {.exposure_stops = bad}));
+  }
+}
+
 // A time step in which a column collapses under its weight adds energy; the solver must not take one.
 TEST(Simulation, TimeStepIsLimitedByFluid) {
   Scene tall;

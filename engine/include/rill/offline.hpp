@@ -26,9 +26,13 @@
 
 namespace rill::offline {
 
+/// Limit of Options::exposure_stops, in both directions.
+inline constexpr double kMaxExposure_stops = 10;
+
 /// Options of Simulation and Player.
 struct Options {
   double orbit_degPerS = 0;                  ///< angular speed of the camera around its target, counter-clockwise seen from above
+  double exposure_stops = 0;                 ///< of the view `final`: each stop doubles the light before the tone curve; -10 to 10
   std::string device = {};                   ///< a name, a part that no other has, or an index; empty: the most capable device
   std::string deviceOrigin = {};             ///< what messages about `device` begin with, such as the user's option; may be empty
   std::vector<Override> overrides = {};      ///< applied to the scene
@@ -211,7 +215,8 @@ class Simulation {
 /// Renders given particles with a scene's camera, solids and look. Not thread-safe. Moves as Simulation.
 class Player {
  public:
-  /// BadInput for a scene without a spacing; other errors as Simulation::open(). Uses Options::device, validation and orbit_degPerS.
+  /// BadInput for a scene without a spacing; other errors as Simulation::open(). Uses Options::device, validation,
+  /// orbit_degPerS and exposure_stops.
   static Expected<Player> open(Scene scene, const Options& options = {});
   ~Player();
   Player(Player&&) noexcept;
