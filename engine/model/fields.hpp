@@ -14,6 +14,7 @@ namespace rill::model {
 
 inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+y", "-z", "+z"};  // bits of SideMask
 inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "ink", "clay"};
+inline constexpr std::array<std::string_view, 3> kSkyWords{"studio", "day", "sunset"};
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 
 /// The newest version of scene files that can be read.
@@ -244,8 +245,13 @@ struct Table<Look> {
                  .help = "surface reconstruction; auto: planes, the most accurate method in rill-bench render",
                  .words = kSurfaceWords},
             &Look::surface},
+      Field{Info{.key = "sky",
+                 .help = "built-in sky: studio, soft lights before a dark backdrop, or day or sunset, clear skies with their sun",
+                 .words = kSkyWords,
+                 .since = "0.2"},
+            &Look::sky},
       Field{Info{.key = "environment",
-                 .help = "equirectangular environment map (.hdr, or .png or .jpg as sRGB) in place of the default sky; the path is "
+                 .help = "equirectangular environment map (.hdr, or .png or .jpg as sRGB) in place of the sky; the path is "
                          "relative to the scene file, at most 8192x4096 pixels"},
             &Look::environment}};
 };

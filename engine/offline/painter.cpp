@@ -99,6 +99,8 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     if (!look) return Error{ErrorKind::BadInput, "look.preset: unknown look " + inQuotes(scene_.look.preset)};
     const auto method = surfaceMethod(scene_.look.surface);
     if (!method) return Error{ErrorKind::BadInput, "look.surface: unknown method " + inQuotes(scene_.look.surface)};
+    if (std::ranges::find(skies(), scene_.look.sky) == skies().end())
+      return Error{ErrorKind::BadInput, "look.sky: unknown sky " + inQuotes(scene_.look.sky)};
     look_ = *look;
     look_.surface = *method;
     auto made = FluidRenderer::create(device);
@@ -110,6 +112,8 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     const auto picture = loadEnvironment(scene_.look.environment);
     if (!picture) return environmentError(picture.error());
     if (auto set = fluid_->setEnvironment(*picture); !set) return environmentError(set.error());
+  } else if (const auto sky = skyPicture(scene_.look.sky)) {
+    if (auto set = fluid_->setEnvironment(*sky); !set) return set;
   }
   auto scenery = Scenery::create(device, scene_, start_, {}, implOf(*fluid_).environment.get());
   if (!scenery) return scenery.error();

@@ -5,6 +5,9 @@
 #include <numbers>
 
 #include "gpu/device_impl.hpp"
+#include "render/environment_mips.hpp"
+#include "render/environment_sun.hpp"
+#include "render/environment_texels.hpp"
 
 namespace rill {
 namespace {
@@ -18,9 +21,8 @@ void irradiance(const EnvironmentPicture& picture, Float3& above, Float3& below)
     const int half = up > 0 ? 0 : 1;
     Double3 row = {};
     for (uint32_t x = 0; x < picture.width; ++x) {
-      const uint32_t texel = picture.texels[size_t{y} * picture.width + x];
-      const double scale = std::ldexp(1.0, static_cast<int>(texel >> 27) - 24);
-      for (int c = 0; c < 3; ++c) row[c] += scale * ((texel >> (9 * c)) & 0x1FFu);
+      const Double3 color = unpackTexel(picture.texels[size_t{y} * picture.width + x]);
+      for (int c = 0; c < 3; ++c) row[c] += color[c];
     }
     for (int c = 0; c < 3; ++c) sums[half][c] += weight * row[c];
     weights[half] += weight * picture.width;
@@ -37,21 +39,23 @@ void irradiance(const EnvironmentPicture& picture, Float3& above, Float3& below)
 
 }  // namespace
 
-Expected<std::unique_ptr<Environment>> Environment::create(Device& device, const EnvironmentPicture& picture) {
+Expected<std::unique_ptr<Environment>> Environment::create(Device& device, EnvironmentPicture picture) {
   if (auto fits = checkEnvironmentSize(picture.width, picture.height); !fits)
     return Error{ErrorKind::BadInput, "an environment: " + fits.error().message};
   if (picture.texels.size() != size_t{picture.width} * picture.height)
     return Error{ErrorKind::BadInput, "an environment of " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
                                           " pixels: found " + std::to_string(picture.texels.size()) + " texels"};
   auto out = std::unique_ptr<Environment>(new Environment(implOf(device)));
-  out->width_ = picture.width;
+  out->sun_ = takeSun(picture);
   irradiance(picture, out->above_, out->below_);
-  const uint64_t bytes = picture.texels.size() * sizeof(uint32_t);
+  std::vector<uint32_t> levels = environmentLevels(picture);
+  out->width_ = 2 * dropFineLevels(levels, picture.height, device.info().maxBufferBytes);
+  const uint64_t bytes = levels.size() * sizeof(uint32_t);
   auto texels = createBuffer(device, "environment", bytes, MemoryKind::Device);
   if (!texels) return texels.error();
   auto staging = createBuffer(device, "environment staging", bytes, MemoryKind::Upload);
   if (!staging) return staging.error();
-  std::memcpy(staging->mapped(), picture.texels.data(), bytes);
+  std::memcpy(staging->mapped(), levels.data(), bytes);
   out->texels_ = *std::move(texels);
   out->staging_ = *std::move(staging);
   return out;

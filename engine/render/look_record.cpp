@@ -4,12 +4,18 @@
 #include <span>
 
 namespace rill {
+namespace {
+
+constexpr Float3 kToSun{-0.30f, 0.84f, 0.45f};
+
+}  // namespace
 
 look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment) {
   look::LookRecord record{};
   record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refractionIndex};
   record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
-  const Float3& s = look.toSun;
+  const EnvironmentSun* sun = environment && environment->sun() ? &*environment->sun() : nullptr;
+  const Float3 s = look.toSun.value_or(sun ? sun->direction : kToSun);
   const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
   record.light = size > 0 ? Float4{s.x / size, s.y / size, s.z / size, look.sun} : Float4{0, 1, 0, look.sun};
   record.finish = {look.highlight, static_cast<float>(thickness.step), thickness.unit, look.aeration};
@@ -17,6 +23,9 @@ look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& t
     const Float3 above = environment->above(), below = environment->below();
     record.above = {above.x, above.y, above.z, static_cast<float>(environment->width())};
     record.below = {below.x, below.y, below.z, static_cast<float>(environment->height())};
+    // Without a sun, as much light as comes from the sky gives fluid and solids their shape.
+    const Float3 light = sun ? sun->light : above;
+    record.sunlight = {light.x, light.y, light.z, sun ? sun->radius : 0};
   }
   return record;
 }

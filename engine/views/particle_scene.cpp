@@ -18,18 +18,18 @@ using particle_view::SceneRecord;
 
 constexpr uint32_t kLightTexels = 512;  // a side at most
 
-/// Directions of the light map: across, across and to the light. The light comes from the front, left and above, so that the usual camera
-/// sees lit sides.
+constexpr Double3 kToLight = {-0.36, 1.0, 0.52};  // from the front, left and above: the usual camera sees lit sides
+
+/// Directions of the light map: across, across and to the light.
 struct LightFrame {
   Double3 u, v, to;
 };
 
-LightFrame lightFrame() {
-  constexpr Double3 kToLight = {-0.36, 1.0, 0.52};
-  const double size = std::sqrt(kToLight.x * kToLight.x + kToLight.y * kToLight.y + kToLight.z * kToLight.z);
-  const Double3 to = {kToLight.x / size, kToLight.y / size, kToLight.z / size};
+LightFrame lightFrame(const Double3& toLight) {
+  const double size = std::sqrt(toLight.x * toLight.x + toLight.y * toLight.y + toLight.z * toLight.z);
+  const Double3 to = {toLight.x / size, toLight.y / size, toLight.z / size};
   const double across = std::hypot(to[0], to[2]);
-  LightFrame frame{{to[2] / across, 0, -to[0] / across}, {}, to};
+  LightFrame frame{across > 1e-6 ? Double3{to[2] / across, 0, -to[0] / across} : Double3{1, 0, 0}, {}, to};
   frame.v[0] = to[1] * frame.u[2] - to[2] * frame.u[1];
   frame.v[1] = to[2] * frame.u[0] - to[0] * frame.u[2];
   frame.v[2] = to[0] * frame.u[1] - to[1] * frame.u[0];
@@ -61,8 +61,8 @@ Bounds litBounds(const Scene& scene, const ParticleSet& particles) {
   return bounds;
 }
 
-void fillLight(SceneRecord& record, const Bounds& bounds, const Double3& origin, double spacing) {
-  const LightFrame frame = lightFrame();
+void fillLight(SceneRecord& record, const Bounds& bounds, const Double3& origin, double spacing, const Double3& toLight) {
+  const LightFrame frame = lightFrame(toLight);
   Double3 low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
   for (int corner = 0; corner < 8; ++corner) {
     Double3 at;
@@ -138,7 +138,7 @@ double roundNicely(double value) {
   return best;
 }
 
-ParticleScene particleScene(const Scene& scene, const ParticleSet& particles) {
+ParticleScene particleScene(const Scene& scene, const ParticleSet& particles, const std::optional<Double3>& toSun) {
   ParticleScene out;
   out.origin = particles.origin;
   SceneRecord& record = out.scene;
@@ -151,7 +151,7 @@ ParticleScene particleScene(const Scene& scene, const ParticleSet& particles) {
     record.domain_max = {high(0), high(1), high(2), static_cast<float>(roundNicely(floor / 16))};
     record.counts.w = ~uint32_t{domain.open} & 0x3Fu;
   }
-  fillLight(record, litBounds(scene, particles), out.origin, scene.fluid.spacing);
+  fillLight(record, litBounds(scene, particles), out.origin, scene.fluid.spacing, toSun.value_or(kToLight));
   fillSolids(out, scene);
   out.lines = flowOutlines(scene, out.origin, out.keyframes);
   record.counts.x = static_cast<uint32_t>(out.solids.size());

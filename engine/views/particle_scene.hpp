@@ -1,5 +1,6 @@
 #pragma once
 // What the particle view keeps of a scene, as records for the device.
+#include <optional>
 #include <vector>
 
 #include "rill/particles.hpp"
@@ -18,7 +19,8 @@ struct ParticleScene {
   double compression_max = 0.01;                 ///< fraction at the compression map's end
 };
 
-ParticleScene particleScene(const Scene& scene, const ParticleSet& particles);
+/// `toSun`: direction to the light, of any length and not zero; empty: from the front, left and above.
+ParticleScene particleScene(const Scene& scene, const ParticleSet& particles, const std::optional<Double3>& toSun = {});
 
 /// The nearest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten; 1 where `value` is not positive.
 double roundNicely(double value);

@@ -54,7 +54,12 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
                                                    const TargetFormats& formats, const Environment* environment) {
   auto out = std::make_unique<Scenery>();
   out->environment_ = environment;
-  auto buffers = SceneBuffers::create(device, particleScene(scene, particles));
+  std::optional<Double3> toSun;
+  if (environment && environment->sun()) {
+    const Float3& to = environment->sun()->direction;
+    toSun = {to.x, to.y, to.z};
+  }
+  auto buffers = SceneBuffers::create(device, particleScene(scene, particles, toSun));
   if (!buffers) return buffers.error();
   out->buffers_ = *std::move(buffers);
   auto stage = SurfaceStage::create(device);

@@ -19,7 +19,6 @@ layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; 
 layout(location = 0) out vec4 color;
 
 const float kEdgeOn = -0.02;  // largest cosine between a visible normal and the view ray
-const vec3 kSunlight = vec3(1.0, 0.95, 0.88);
 
 vec3 sceneAt(ivec2 pixel) {
   const uvec2 packed = scene_color[uint(pixel.y) * view.width + uint(pixel.x)];
@@ -33,6 +32,22 @@ float fresnel(float cosine, float index) {
   const float s = (cosine - index * inner) / (cosine + index * inner);
   const float p = (inner - index * cosine) / (inner + index * cosine);
   return 0.5 * (s * s + p * p);
+}
+
+// Angle (rad) between the rays that this pixel and the next ones reflect. The built-in sky has no detail to be filtered.
+float reflectedSpread(ivec2 pixel, vec3 normal) {
+#ifdef ENVIRONMENT
+  float change = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    const ivec2 next = pixel + ivec2(1 - k, k);
+    if (next.x >= int(view.width) || next.y >= int(view.height)) continue;
+    const uvec2 other = surface[uint(next.y) * view.width + uint(next.x)];
+    if (pixelDepth(other) < noDepth()) change = max(change, length(unpackNormal(other.y) - normal));
+  }
+  return 2.0 * change + (view.perspective > 0.0 ? abs(view.scale[1]) * 2.0 / float(view.height) : 0.0);
+#else
+  return 0.0;
+#endif
 }
 
 #ifndef OPAQUE
@@ -138,12 +153,12 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   const vec3 body = sceneBilinear(hit_pixel, z) * through + look.scatter.rgb * scattered * (1.0 - through);
   // Multiple scattering leaves no side dark.
   const float facing_sun = 0.5 + 0.5 * dot(worldDirection(mean_normal.direction), look.light.xyz);
-  return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + kSunlight * facing_sun * facing_sun, white);
+  return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + sunlight() * facing_sun * facing_sun, white);
 }
 
 // At grazing angles a reflected ray below the horizon shows the scene behind the fluid.
-vec3 reflectedLight(ivec2 pixel, vec3 sight, vec3 mirrored) {
-  const vec3 sky = skyColor(mirrored, look.light.xyz);
+vec3 reflectedLight(ivec2 pixel, vec3 sight, vec3 mirrored, float spread) {
+  const vec3 sky = skyColor(mirrored, look.light.xyz, spread);
   const float past = smoothstep(kGrazing.x, kGrazing.y, dot(mirrored, sight)) * (1.0 - skyShare(mirrored));
   if (past <= 0.0) return sky;
   return mix(sky, sceneAt(pixel) * exp(-look.absorption.rgb * thicknessAt(vec2(pixel) + 0.5)), past);
@@ -168,19 +183,22 @@ void main() {
   const float lit = max(dot(world_normal, sun), 0.0);
   const vec3 ambient = skyLight(world_normal);
   float reflected = fresnel(cosine, look.absorption.w);
-  float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x) * look.light.w;
+  const float spread = reflectedSpread(pixel, normal);
+  // A highlight that the surface's curvature widens keeps its energy.
+  const float widened = 1.0 / (1.0 + 0.25 * look.finish.x * spread * spread);
+  float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x * widened) * look.light.w * widened;
 #ifdef OPAQUE
-  const vec3 body = look.scatter.rgb * (ambient + kSunlight * lit);
-  const vec3 mirror = skyColor(mirrored, sun);
+  const vec3 body = look.scatter.rgb * (ambient + sunlight() * lit);
+  const vec3 mirror = skyColor(mirrored, sun, spread);
 #else
   const MeanNormal mean_normal = meanNormalAt(vec2(pixel) + 0.5, z, normal, sight);
   // Reflections in spray would flicker from pixel to pixel. A straight silhouette reflects in full.
   reflected *= z <= nearestDrawn() ? 0.0 : smoothstep(kReflectionFade.x, kReflectionFade.y, mean_normal.coherence);
   highlight *= smoothstep(kHighlightFade.x, kHighlightFade.y, mean_normal.coherence);
-  const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, ambient + vec3(0.5) * (0.3 + 0.7 * lit));
-  const vec3 mirror = reflectedLight(pixel, world_sight, mirrored);
+  const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, ambient + 0.5 * sunlight() * (0.3 + 0.7 * lit));
+  const vec3 mirror = reflectedLight(pixel, world_sight, mirrored, spread);
 #endif
-  const vec3 fluid = mix(body, mirror, reflected) + vec3(1.0, 0.95, 0.86) * (reflected * highlight);
+  const vec3 fluid = mix(body, mirror, reflected) + sunlight() * (reflected * highlight);
   color = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);
   gl_FragDepth = targetDepth(z);
 }

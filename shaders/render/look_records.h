@@ -14,12 +14,13 @@ using vec4 = Float4;
 struct LookRecord {
   vec4 absorption;  // 1/m; w: index of refraction
   vec4 scatter;     // color of white light scattered by thick fluid; w: 1 if the fluid is opaque
-  vec4 light;       // direction to the sun; w: its radiance relative to the sky's
+  vec4 light;       // direction to the sun; w: radiance of its reflection relative to `sunlight`
   // x: exponent of the sun's highlight, y: pixels per sample of the thickness buffer, z: m per count
   // of it, w: strength of whitewater
   vec4 finish;
   vec4 above;       // irradiance of the environment from above, over pi; w: width in texels, 0: no environment
   vec4 below;       // the same from below; w: height
+  vec4 sunlight;    // of an environment: radiance of a white surface that faces the sun; w: radius of its disc in rad, 0: none
 };
 
 #ifdef __cplusplus

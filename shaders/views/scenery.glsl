@@ -56,4 +56,3 @@ float pastSolids(vec3 p, float bias) {
 #endif
 }
 
-const vec3 kSun = vec3(1.0, 0.94, 0.84);

@@ -25,7 +25,15 @@ float checker(vec2 at, vec2 width) {
 }
 
 #ifdef ENVIRONMENT
-vec3 backdrop(vec3 sight) { return skyColor(sight, scene.light_to.xyz); }
+float pixelAngle() { return view.perspective > 0.0 ? abs(view.scale[1]) * 2.0 / float(view.height) : 0.0; }
+
+vec3 backdrop(vec3 sight) {
+  const vec3 sky = skyColor(sight, look.light.xyz, pixelAngle());
+  const float radius = look.sunlight.w, apart = length(sight - look.light.xyz), rim = max(pixelAngle(), 0.05 * radius);
+  // The disc's radiance lights a surface that faces it by `sunlight`.
+  if (radius <= 0.0 || apart > radius + rim) return sky;
+  return sky + min(sunlight() / (radius * radius), 3e4) * clamp((radius - apart) / rim + 0.5, 0.0, 1.0);
+}
 vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
 #else
 // Darker than the sky that is reflected, so that reflections are seen against it.
@@ -57,8 +65,8 @@ void main() {
   vec3 albedo = vec3(0.17, 0.19, 0.215);
   if (inside) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
-  const vec3 sunlight = kSun * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
-  const vec3 lit = albedo * (0.55 * skyLight(vec3(0.0, 1.0, 0.0)) + 0.75 * sunlight);
+  const vec3 direct = sunlight() * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
+  const vec3 lit = albedo * (kAmbientShare * skyLight(vec3(0.0, 1.0, 0.0)) + kSunShare * direct);
   const float far = length(beyond) / (1.4 * max(max(extent.x, extent.y), 1e-6));
   color = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);

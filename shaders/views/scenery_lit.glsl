@@ -4,6 +4,6 @@ const vec3 kSolidAlbedo = vec3(0.66, 0.50, 0.36);
 vec3 litSolid(vec3 p, vec3 normal, vec3 albedo) {
   const float facing = max(dot(normal, scene.light_to.xyz), 0.0);
   const float bias = scene.light_texel.x * (1.0 + 2.0 * sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.1));
-  const vec3 sunlight = kSun * facing * pastSolids(p, bias) * throughFluid(p);
-  return albedo * (0.55 * skyLight(normal) + 0.85 * sunlight);
+  const vec3 direct = sunlight() * facing * pastSolids(p, bias) * throughFluid(p);
+  return albedo * (kAmbientShare * skyLight(normal) + kSunShare * direct);
 }

@@ -41,6 +41,25 @@ TEST(SceneEnvironment, FillsBackground) {
   EXPECT_GT(distance(red, plain).mean, 0.1);
 }
 
+TEST(SceneSky, IsDrawnUnlessThereIsAnEnvironment) {
+  const TemporaryFolder folder;
+  folder.write("scene.json", kScene);
+  std::filesystem::create_directory(folder / "skies");
+  folder.write("skies/sky.hdr", radiance({'\x80', '\x10', '\x10', '\x80'}));
+  const auto drawn = [&](const std::vector<std::string>& set) {
+    std::vector<std::string> arguments{"scene.json", "--frames", "1", "--size", "96x54", "--out", "out", "--set", "rill=0.2"};
+    arguments.insert(arguments.end(), set.begin(), set.end());
+    const Outcome outcome = capture(arguments, folder.string());
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return readPicture(folder / "out/frame_00000.png");
+  };
+  const Picture studio = drawn({"look={}"}), day = drawn({"look={\"sky\": \"day\"}"}), sunset = drawn({"look={\"sky\": \"sunset\"}"});
+  EXPECT_GT(distance(studio, day).mean, 0.05);
+  EXPECT_GT(distance(day, sunset).mean, 0.01);
+  EXPECT_EQ(drawn({"look={\"sky\": \"studio\"}"}).rgb, studio.rgb);
+  EXPECT_EQ(drawn({"look.sky=day"}).rgb, drawn({}).rgb) << "the environment is drawn";
+}
+
 TEST(SceneEnvironment, RejectsBadFilesWithName) {
   const TemporaryFolder folder;
   folder.write("scene.json", kScene);

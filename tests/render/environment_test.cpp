@@ -1,12 +1,16 @@
 // Environment maps: loading, as background, and in reflections of the fluid.
 #include "render/environment.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 
+#include "render/environment_mips.hpp"
+#include "render/environment_sun.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "rill/scene_io.hpp"
 #include "support/gpu_test.hpp"
@@ -107,6 +111,153 @@ TEST(LoadEnvironment, ErrorsNameTheFile) {
   EXPECT_EQ(said(whole.substr(0, whole.size() / 2)).rfind("can't be decoded: ", 0), 0u);
   EXPECT_FALSE(loadEnvironment(folder / "none.hdr"));
   EXPECT_FALSE(loadEnvironment(folder.path()));
+}
+
+double dotOf(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+Double3 directionOf(double x, double y, uint32_t width) {
+  const double polar = y / (width / 2) * std::numbers::pi, turn = (x / width - 0.5) * 2 * std::numbers::pi;
+  return {std::sin(polar) * std::sin(turn), std::cos(polar), -std::sin(polar) * std::cos(turn)};
+}
+
+double solidAngle(uint32_t y, uint32_t width) {
+  const double step = std::numbers::pi / (width / 2);
+  return 2 * std::numbers::pi / width * (std::cos(y * step) - std::cos((y + 1) * step));
+}
+
+/// Irradiance of each channel on a surface with this normal.
+Rgb irradianceOf(const EnvironmentPicture& map, const Double3& normal) {
+  Rgb sum{};
+  for (uint32_t y = 0; y < map.height; ++y)
+    for (uint32_t x = 0; x < map.width; ++x) {
+      const double weight = solidAngle(y, map.width) * std::max(dotOf(directionOf(x + 0.5, y + 0.5, map.width), normal), 0.0);
+      const Rgb color = unpacked(map.texels[y * map.width + x]);
+      for (size_t c = 0; c < 3; ++c) sum[c] += weight * color[c];
+    }
+  return sum;
+}
+
+/// A blue sky over gray ground, with a disc of `radius` rad towards `sun`.
+EnvironmentPicture sunny(const Double3& sun, double radius, double radiance, uint32_t width = 512) {
+  return picture(width, [&](uint32_t x, uint32_t y) {
+    const bool disc = dotOf(directionOf(x + 0.5, y + 0.5, width), sun) > std::cos(radius);
+    if (disc) return Rgb{radiance, 0.9 * radiance, 0.7 * radiance};
+    return y < width / 4 ? Rgb{0.2, 0.4, 0.9} : Rgb{0.2, 0.2, 0.2};
+  });
+}
+
+constexpr double kTexel = std::numbers::pi / 256;  // rad, of a map of 512 x 256
+const Double3 kSuns[] = {{0, 1, 0},     {0.01, 0.99995, 0}, {0.6, 0.64, -0.48}, {0.6, 0.64, 0.48},  {-0.6, 0.8, 0},
+                         {0, 0.6, 0.8}, {1e-3, 0.6, 0.8},   {-0.96, 0.28, 0},   {0.8, 0.12, 0.588}, {-0.36, 0.872, 0.331}};
+
+TEST(EnvironmentSunTest, IsFoundWithinATexel) {
+  for (const Double3& to : kSuns) {
+    const double size = std::sqrt(dotOf(to, to));
+    const Double3 sun = {to.x / size, to.y / size, to.z / size};
+    for (const double radius : {1.5 * kTexel, 4 * kTexel}) {
+      const auto found = findSun(sunny(sun, radius, 3000));
+      ASSERT_TRUE(found) << sun.x << " " << sun.y << " " << sun.z;
+      const double apart = std::acos(std::min(dotOf(sun, {found->direction.x, found->direction.y, found->direction.z}), 1.0));
+      EXPECT_LT(apart, kTexel) << sun.x << " " << sun.y << " " << sun.z << ", radius " << radius;
+      EXPECT_NEAR(double{found->radius}, radius, 0.75 * kTexel) << "texels are inside or outside";
+      EXPECT_NEAR(double{found->light.y / found->light.x}, 0.9, 0.01);
+      EXPECT_NEAR(double{found->light.z / found->light.x}, 0.7, 0.01);
+    }
+  }
+}
+
+TEST(EnvironmentSunTest, TakingItOutKeepsIrradiance) {
+  for (const Double3& to : kSuns) {
+    const double size = std::sqrt(dotOf(to, to));
+    EnvironmentPicture map = sunny({to.x / size, to.y / size, to.z / size}, 3 * kTexel, 3000);
+    const EnvironmentPicture before = map;
+    const auto sun = takeSun(map);
+    ASSERT_TRUE(sun);
+    for (const uint32_t texel : map.texels) ASSERT_LT(unpacked(texel)[0], 0.21) << "the disc is gone";
+    const Double3 direction = {sun->direction.x, sun->direction.y, sun->direction.z};
+    for (const Double3& normal : {Double3{0, 1, 0}, direction, Double3{0.6, 0.8, 0}}) {
+      const Rgb whole = irradianceOf(before, normal), sky = irradianceOf(map, normal);
+      const double facing = std::numbers::pi * std::max(dotOf(normal, direction), 0.0);
+      if (facing < 0.1) continue;  // a disc that is partly below the surface's horizon
+      const double light[] = {sun->light.x, sun->light.y, sun->light.z};
+      for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(sky[c] + facing * light[c], whole[c], 0.01 * whole[c]) << to.x << " " << to.y;
+    }
+  }
+}
+
+TEST(EnvironmentSunTest, OtherPicturesHaveNone) {
+  EXPECT_FALSE(findSun(picture(64, [](uint32_t, uint32_t) { return Rgb{1, 1, 1}; })));
+  EXPECT_FALSE(findSun(picture(64, [](uint32_t, uint32_t) { return Rgb{0, 0, 0}; })));
+  EXPECT_FALSE(findSun(sunny({0.6, 0.64, -0.48}, 0.4, 3000))) << "a softbox";
+  EXPECT_FALSE(findSun(sunny({0.6, 0.64, -0.48}, 3 * kTexel, 1))) << "clipped";
+  EXPECT_FALSE(findSun(sunny({0.6, -0.64, -0.48}, 3 * kTexel, 3000))) << "below the horizon";
+  EXPECT_FALSE(findSun({}));
+  EXPECT_FALSE(findSun({4, 2, {1, 2, 3}}));
+}
+
+Rgb meanOf(const uint32_t* texels, uint32_t rows) {
+  Rgb sum{};
+  for (uint32_t y = 0; y < rows; ++y)
+    for (uint32_t x = 0; x < 2 * rows; ++x) {
+      const Rgb color = unpacked(texels[y * 2 * rows + x]);
+      for (size_t c = 0; c < 3; ++c) sum[c] += color[c] * solidAngle(y, 2 * rows) / (4 * std::numbers::pi);
+    }
+  return sum;
+}
+
+// The tolerance is that of nine bits per component, of texels and of their means.
+TEST(EnvironmentLevels, KeepTheMeanOfAnySize) {
+  for (const uint32_t width : {2u, 4u, 12u, 64u, 146u, 500u}) {
+    uint32_t state = 7;
+    const auto random = [&] { return double((state = state * 1664525 + 1013904223) >> 8) / (1 << 24); };
+    const EnvironmentPicture map = picture(width, [&](uint32_t, uint32_t) { return Rgb{random(), 20 * random() * random(), 0.5}; });
+    const auto levels = environmentLevels(map);
+    const Rgb wanted = meanOf(map.texels.data(), map.height);
+    size_t first = 0;
+    for (uint32_t rows = map.height;; rows /= 2) {
+      ASSERT_LE(first + 2 * rows * rows, levels.size()) << width;
+      const Rgb mean = meanOf(&levels[first], rows);
+      for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], wanted[c], 0.004 * wanted[c] + 20.0 / 1024) << width << ", " << rows << " rows";
+      first += 2 * rows * rows;
+      if (rows == 1) break;
+    }
+    EXPECT_EQ(first, levels.size());
+  }
+}
+
+TEST(EnvironmentLevels, FinestAreLeftOutWhereABufferIsTooSmall) {
+  const EnvironmentPicture map = picture(16, [](uint32_t x, uint32_t y) { return Rgb{double(x), double(y), 1}; });
+  const auto whole = environmentLevels(map);  // 128 + 32 + 8 + 2 texels
+  ASSERT_EQ(whole.size(), 170u);
+  auto levels = whole;
+  EXPECT_EQ(dropFineLevels(levels, 8, 680), 8u);
+  EXPECT_EQ(levels, whole);
+  EXPECT_EQ(dropFineLevels(levels, 8, 679), 4u);
+  EXPECT_EQ(levels, std::vector(whole.begin() + 128, whole.end()));
+  EXPECT_EQ(dropFineLevels(levels, 4, 39), 1u);
+  EXPECT_EQ(levels.size(), 2u);
+}
+
+TEST(SkyPicture, DayAndSunsetAreExposedAndHaveTheirSun) {
+  EXPECT_FALSE(skyPicture("studio"));
+  EXPECT_FALSE(skyPicture("dya"));
+  for (const auto& [name, to] : {std::pair{"day", Double3{-0.36, 1.0, 0.52}}, std::pair{"sunset", Double3{-0.75, 0.16, -0.66}}}) {
+    const auto sky = skyPicture(name);
+    ASSERT_TRUE(sky);
+    const auto sun = findSun(*sky);
+    ASSERT_TRUE(sun) << name;
+    const Double3 found = {sun->direction.x, sun->direction.y, sun->direction.z};
+    EXPECT_LT(std::acos(std::min(dotOf(found, to) / std::sqrt(dotOf(to, to)), 1.0)), std::numbers::pi / sky->height) << name;
+    const Rgb up = irradianceOf(*sky, {0, 1, 0});
+    EXPECT_NEAR(0.2126 * up[0] + 0.7152 * up[1] + 0.0722 * up[2], std::numbers::pi, 0.01 * std::numbers::pi) << name;
+    EXPECT_GT(unpacked(sky->texels[0])[2], unpacked(sky->texels[0])[0]) << "the zenith is blue";
+  }
+  const auto day = findSun(*skyPicture("day")), evening = findSun(*skyPicture("sunset"));
+  EXPECT_LT(evening->light.z / evening->light.x, 0.6f * day->light.z / day->light.x) << "a low sun is red";
+  // By day a surface that lies flat has three to nine times as much light from the sun as from the sky.
+  const double fromSun = day->light.y * day->direction.y;
+  EXPECT_GT(fromSun, 0.75);
+  EXPECT_LT(fromSun, 0.9);
 }
 
 class EnvironmentOnGpu : public GpuTest {
@@ -236,6 +387,79 @@ TEST_F(EnvironmentOnGpu, FluidReflectsIt) {
   EXPECT_GT(left, 0.015) << "about what Fresnel says of water";
   EXPECT_LT(left, 0.2);
   EXPECT_LT(right, 0.1 * left);
+}
+
+// Pixels are three texels wide: noise becomes its mean.
+TEST_F(EnvironmentOnGpu, IsFilteredWherePixelsAreWider) {
+  uint32_t state = 1;
+  use(picture(2048, [&](uint32_t, uint32_t) {
+    state = state * 1664525 + 1013904223;
+    const double value = state >> 31;
+    return Rgb{value, value, value};
+  }));
+  double sum = 0, squares = 0;
+  for (const Rgb& c : draw(looking(0, 0, -1))) {
+    sum += c[0] / (kWidth * kHeight);
+    squares += c[0] * c[0] / (kWidth * kHeight);
+  }
+  EXPECT_NEAR(sum, 0.5, 0.01);
+  EXPECT_LT(std::sqrt(squares - sum * sum), 0.22) << "0.33 without a filter";
+}
+
+// The highlight on a mirrored ball has the normal halfway between the eye and the sun.
+TEST_F(EnvironmentOnGpu, HighlightIsWhereTheSunIs) {
+  // Shells, because the terraces of a lattice would tilt normals.
+  for (double r = 0.95; r > 0.4; r -= kSpacing) {
+    const int count = int(4 * std::numbers::pi * r * r / (kSpacing * kSpacing));
+    for (int k = 0; k < count; ++k) {
+      const double y = 1 - (2 * k + 1.0) / count, flat = std::sqrt(1 - y * y), turn = 2.399963 * k;
+      start_.positions.push_back({float(r * flat * std::cos(turn)), float(r * y), float(r * flat * std::sin(turn) - 3)});
+    }
+  }
+  FluidLook mirror;
+  mirror.opaque = true;
+  mirror.scatter = {0, 0, 0};
+  mirror.highlight = 100;
+  mirror.sun = 200;
+  // Where a ball of radius 1, 3 m away, has the normal halfway between the eye and the sun, on a plane through its center.
+  const auto wanted = [](const Double3& sun) {
+    Double3 normal = {0, 0, 1};
+    for (int k = 0; k < 50; ++k) {
+      const Double3 eye = {-normal.x, -normal.y, 3 - normal.z};
+      const double away = std::sqrt(dotOf(eye, eye));
+      normal = {eye.x / away + sun.x, eye.y / away + sun.y, eye.z / away + sun.z};
+      const double size = std::sqrt(dotOf(normal, normal));
+      normal = {normal.x / size, normal.y / size, normal.z / size};
+    }
+    return std::pair{3 * normal.x / (3 - normal.z), 3 * normal.y / (3 - normal.z)};
+  };
+  // The center of what is brighter than the sky, of which nothing else is.
+  const auto highlight = [&](const FluidLook& look) {
+    const auto pixels = draw(looking(0, 0, -1), look);
+    double x = 0, y = 0, sum = 0;
+    for (size_t at = 0; at < pixels.size(); ++at) {
+      const double light = std::max(pixels[at][0] - 0.3, 0.0);
+      x += light * (double(at % kWidth) + 0.5 - kWidth / 2);
+      y += light * (kHeight / 2 - double(at / kWidth) - 0.5);
+      sum += light;
+    }
+    EXPECT_GT(sum, 10);
+    return std::pair{x / sum, y / sum};
+  };
+  const double meters = 3 * std::tan(std::numbers::pi / 6) / (kHeight / 2);  // a pixel at the distance of the center, about
+  for (const Double3& sun : {Double3{0.6, 0.64, 0.48}, Double3{-0.5, 0.5, 0.7071}}) {
+    use(sunny(sun, 3 * kTexel, 3000));
+    const auto [x, y] = highlight(mirror);
+    EXPECT_NEAR(x * meters, wanted(sun).first, 0.1) << sun.x;
+    EXPECT_NEAR(y * meters, wanted(sun).second, 0.1) << sun.x;
+    EXPECT_NEAR(double{scenery_->toSun().x}, sun.x, kTexel) << "shadows";
+    FluidLook set = mirror;
+    const Double3 other = {-sun.x, -sun.y, sun.z};
+    set.toSun = {float(other.x), float(other.y), float(other.z)};
+    const auto [left, down] = highlight(set);
+    EXPECT_NEAR(left * meters, wanted(other).first, 0.1) << "a host's own sun stays";
+    EXPECT_NEAR(down * meters, wanted(other).second, 0.1);
+  }
 }
 
 TEST_F(EnvironmentOnGpu, IsCopiedOnceIfPresent) {

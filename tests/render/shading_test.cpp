@@ -140,7 +140,7 @@ TEST_F(FlatPool, MatchesFormulaAtAnyAngle) {
         look.toSun = {float(sun.x), float(sun.y), float(sun.z)};
         look.sun = 3;
       }
-      const double rates[] = {1.2, 0.5, 0.1}, behind[] = {0.7, 0.4, 0.9}, white[] = {1, 0.95, 0.86};
+      const double rates[] = {1.2, 0.5, 0.1}, behind[] = {0.7, 0.4, 0.9}, white[] = {1, 0.95, 0.88};
       const double part = fresnel(angle, double{look.refractionIndex});
       const auto pixels = seen(parallel(angle), look, {0.7f, 0.4f, 0.9f, 1});
       const Color whole = mean(pixels);

@@ -168,6 +168,8 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
       {[](Scene& s) { s.fluid.capacity = kMaxParticles + 1; },
        "fluid.capacity: 67108865 is out of range; expected a whole number from 0 to 67108864"},
       {[](Scene& s) { s.camera->eye[2] = 0; }, "camera.target: eye and target are the same point; expected two different points"},
+      {[](Scene& s) { s.look.sky = "dya"; },
+       "look.sky: found the string \"dya\", expected one of \"studio\", \"day\", \"sunset\"; did you mean \"day\"?"},
       {[](Scene& s) { s.look.preset = "watr"; },
        "look.preset: found the string \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\"; did you mean \"water\"?"},
   };

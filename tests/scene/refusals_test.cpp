@@ -135,6 +135,8 @@ TEST(SceneErrors, RejectsKeysNewerThanTheVersionOfTheScene) {
   EXPECT_EQ(parseError(turning("0.1", turn)),
             "dam.json: solids[0].motion[1].rotate: the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"");
   EXPECT_EQ(parseError(turning("0.1", turn), {{"rill", "0.2"}}), "accepted");
+  EXPECT_EQ(parseError(with(R"("look": {"sky": "day"})")),
+            "dam.json: look.sky: the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"");
   EXPECT_EQ(parseError(turning("0.1", "\"translate\": [1, 0, 0]"), {{"solids[0].motion[0].rotate", "[0,0,0,1]"}}),
             "--set solids[0].motion[0].rotate: the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"");
   EXPECT_EQ(
@@ -152,8 +154,9 @@ TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
       {with(R"("solver": {"jitter": 1})"), ": solver.jitter: unknown key; did you mean \"fill[].jitter\"?"},
       {with(R"("fill": [{"seed": 1}])"), ": fill[0].seed: unknown key; did you mean \"seed\", at the top of the scene?"},
       {with(R"("fill": [{"box": {"min": [0, 0, 0], "mx": [1, 1, 1]}}])"), ": fill[0].box.mx: unknown key; did you mean \"max\"?"},
-      {with(R"("look": {"zzzzzz": 1})"), ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"environment\""},
-      {with(R"("look": {"a.b\nc": 1})"), ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"environment\""},
+      {with(R"("look": {"zzzzzz": 1})"), ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"sky\", \"environment\""},
+      {with(R"("look": {"a.b\nc": 1})"),
+       ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"sky\", \"environment\""},
   });
   EXPECT_EQ(parseError(with(R"("extras": {"anything": [1, {"goes": null}]}, "$schema": "scene.schema.json")")), "accepted");
 }

@@ -5,10 +5,14 @@
 //   dusk.texels.assign(4, rill::sharedExponent(0.9f, 0.5f, 0.3f));  // the upper row, then the lower one
 //   dusk.texels.insert(dusk.texels.end(), 4, rill::sharedExponent(0.1f, 0.1f, 0.12f));
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill {
 
@@ -25,5 +29,22 @@ RILL_API uint32_t sharedExponent(float r, float g, float b);
 
 /// Fails with BadInput if EnvironmentPicture does not allow this size.
 RILL_API Expected<void> checkEnvironmentSize(uint64_t width, uint64_t height);
+
+/// The sun of an environment.
+struct EnvironmentSun {
+  Float3 direction{0, 1, 0};  ///< towards the center of its disc, unit length, above the horizon
+  Float3 light{};             ///< radiance of a white surface that faces it and sees nothing else, linear RGB
+  float radius = 0;           ///< of a uniform disc with the same solid angle, rad
+};
+
+/// The sun of a picture: its brightest spot, if that is at most 10 degrees from its center to its rim, and lights the ground by a tenth of
+/// what the sky does or more. Empty for an overcast sky, for pictures in sRGB, whose sun is clipped, and for an invalid picture.
+RILL_API std::optional<EnvironmentSun> findSun(const EnvironmentPicture& picture);
+
+/// A scene's `look.sky` as an environment: day or sunset, clear skies of Preetham, Shirley and Smits (1999) with the sun's disc. White
+/// ground has the radiance 1. Empty for `studio`, the sky without an environment, and for an unknown name.
+RILL_API std::optional<EnvironmentPicture> skyPicture(std::string_view name);
+/// Names of all skies.
+RILL_API std::span<const std::string_view> skies();
 
 }  // namespace rill

@@ -73,8 +73,8 @@ struct FluidLook {
   bool opaque = false;                    ///< nothing is visible through the fluid, and its thickness is not computed
   float refractionIndex = 1.333f;         ///< 1 to 10
   float highlight = 900;                  ///< exponent of the sun's specular reflection
-  float sun = 18;                         ///< radiance of the sun's reflection relative to the sky's
-  Float3 toSun{-0.30f, 0.84f, 0.45f};     ///< direction, of any length
+  float sun = 18;                         ///< radiance of the sun's reflection relative to that of a white surface in its light
+  std::optional<Float3> toSun = {};       ///< direction, of any length; empty: of the environment's sun, otherwise -0.30, 0.84, 0.45
   float aeration = 0.3f;                  ///< strength of whitewater (spray and breaking crests), 0 (none) to 1; ignored if opaque
 };
 
@@ -108,9 +108,10 @@ class RILL_API FluidRenderer {
   FluidRenderer(FluidRenderer&&) noexcept;
   FluidRenderer& operator=(FluidRenderer&&) noexcept;
 
-  /// Replaces the built-in sky that the fluid reflects and is lit by. The sun stays at FluidLook::toSun; the host draws its background
-  /// itself. Call it once, not between a graph's declaration and its recording. The first frames copy the picture to the device. Errors as
-  /// create(), BadInput for a picture that EnvironmentPicture does not allow, OutOfMemory.
+  /// Replaces the built-in sky that the fluid reflects and is lit by. Its sun (findSun()) lights the fluid from where it is unless
+  /// FluidLook::toSun is set, and is not reflected as a part of the picture. The host draws its background itself. Call it once, not
+  /// between a graph's declaration and its recording. The first frames copy the picture to the device. Errors as create(), BadInput for a
+  /// picture that EnvironmentPicture does not allow, OutOfMemory.
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
 
   /// BadInput for a view that cannot be drawn: empty, larger than 8192 per side or 2^24 pixels, an invalid projection. Needs no device.

@@ -238,7 +238,8 @@ struct Camera {
 struct Look {
   std::string preset = "water";            ///< water, milk, ink or clay
   std::string surface = "auto";            ///< surface reconstruction: auto, planes, curvature_flow or narrow_range
-  std::filesystem::path environment = {};  ///< environment map; an absolute path once the scene is loaded; empty: the default sky
+  std::string sky = "studio";              ///< studio, day or sunset; not used where there is an environment map
+  std::filesystem::path environment = {};  ///< environment map; an absolute path once the scene is loaded; empty: the sky
 };
 
 /// A scene: SI units, y up, right-handed.
