@@ -5,6 +5,7 @@
 #include <rill/pipeline.hpp>
 #include <rill/scene_io.hpp>
 #include <rill/surface_mesher.hpp>
+#include <rill/whitewater.hpp>
 
 void describe() {
   (void)rill::HostDevice{.queueFamily = 1};
@@ -21,6 +22,7 @@ void describe() {
   (void)rill::FluidLook{.opaque = true};
   (void)rill::TargetFormats{.color = VK_FORMAT_R8G8B8A8_SRGB};
   (void)rill::SurfaceMesherDesc{.cell = 0.25};
+  (void)rill::WhitewaterDesc{.room = 100};
   (void)rill::EnvironmentPicture{.width = 4};
   (void)rill::Fill{.jitter = 0.1};
   (void)rill::Solid{.friction = 0.1};

@@ -1,0 +1,305 @@
+#include "rill/whitewater.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "core/words.hpp"
+#include "gpu/module_pipelines.hpp"
+#include "gpu/texel_reads.hpp"
+#include "graph/graph_impl.hpp"
+#include "graph/import_whole.hpp"
+#include "graph/shader_pass.hpp"
+#include "render/check_input.hpp"
+#include "render/particle_count.hpp"
+#include "whitewater/whitewater_impl.hpp"
+
+namespace rill {
+namespace {
+
+constexpr uint32_t kMaxWhitewater = 1u << 22;
+constexpr uint64_t kWhiteCountBytes = kWhiteCountWords * 4;
+
+Error whiteError(ErrorKind kind, const std::string& message) { return {kind, "whitewater: " + message}; }
+
+Expected<void> checkWhitewater(const WhitewaterDesc& desc) {
+  const auto number = [](const char* name, double value, bool valid, const char* expected) -> Expected<void> {
+    if (valid && std::isfinite(value)) return {};
+    return whiteError(ErrorKind::BadInput, std::string(name) + " is " + shortestNumber(value) + "; expected " + expected);
+  };
+  for (const auto& [name, value] : {std::pair{"capacity", desc.capacity}, {"room", desc.room}})
+    if (value < 1 || value > kMaxWhitewater)
+      return whiteError(ErrorKind::BadInput,
+                        std::string(name) + " is " + grouped(value) + "; expected 1 to " + grouped(kMaxWhitewater) + " particles");
+  if (auto ok = number("parcel_m3", desc.parcel_m3, desc.parcel_m3 > 0, "a volume above 0 (m^3)"); !ok) return ok;
+  if (auto ok = number("trapping", desc.trapping, desc.trapping >= 0, "at least 0"); !ok) return ok;
+  if (auto ok = number("breaking", desc.breaking, desc.breaking >= 0, "at least 0"); !ok) return ok;
+  if (auto ok = number("life_s", desc.life_s, desc.life_s > 0, "a time above 0 (s)"); !ok) return ok;
+  for (size_t a = 0; a < 3; ++a)
+    for (const auto& [name, vector] : {std::pair{"gravity", desc.gravity}, {"origin", desc.origin}})
+      if (auto ok = number(name, vector[a], true, "finite numbers"); !ok) return ok;
+  if (!desc.snapshot) return {};
+  const WhitewaterSnapshot& s = *desc.snapshot;
+  const size_t count = s.place.size();
+  const bool fits = count <= desc.room && s.motion.size() == count &&
+                    (s.counts.empty() ? count == 0 : s.counts.size() == kWhiteCountWords && s.counts[kWhiteCount] == count);
+  if (!fits) return whiteError(ErrorKind::BadInput, "the snapshot of " + grouped(count) + " particles does not fit");
+  return {};
+}
+
+}  // namespace
+
+/// The buffers of one frame.
+struct WhitewaterImpl::Frame {
+  WhitePush push{};
+  BufferRef position, velocity, particleCount, keys, order, start, place, motion, surface, strain, births, whitePlace, whiteMotion,
+      movedPlace, movedMotion, alive, counts, arguments;
+};
+
+Expected<std::unique_ptr<WhitewaterImpl>> WhitewaterImpl::create(Device& device, const WhitewaterDesc& desc) {
+  if (auto valid = checkWhitewater(desc); !valid) return valid.error();
+  auto impl = std::make_unique<WhitewaterImpl>();
+  impl->desc = desc;
+  impl->desc.snapshot = nullptr;
+  impl->bins_ = std::bit_ceil(std::max(desc.capacity / 4, 64u));
+  impl->bytes = uint64_t{desc.room} * 32 + kWhiteCountBytes;
+  const uint64_t largest = std::max<uint64_t>(desc.room, desc.capacity) * 16;
+  const auto tooLarge = [&](uint64_t needed, uint64_t found) {
+    return whiteError(ErrorKind::TooLarge, grouped(desc.room) + " diffuse particles need " + grouped(needed) + " bytes; found " +
+                                               grouped(found) + " on the device");
+  };
+  if (largest > device.info().maxBufferBytes) return tooLarge(largest, device.info().maxBufferBytes);
+  if (impl->bytes > device.availableBytes()) return tooLarge(impl->bytes, device.availableBytes());
+
+  auto sort = KeySort::create(device, {.count = desc.capacity, .keyRange = uint64_t{impl->bins_} + 1, .start = true});
+  if (!sort) return sort.error();
+  impl->sort_.emplace(*std::move(sort));
+  for (const auto& [scan, count] : {std::pair{&impl->birthScan_, desc.capacity}, {&impl->aliveScan_, desc.room}}) {
+    auto created = Scan::create(device, count + 1);
+    if (!created) return created.error();
+    *scan = *created;
+  }
+  ModulePipelines make(device);
+  const bool texels = usesTexelReads(device);
+  impl->pipelines_ = {.keys = make.make("whitewater/keys"),
+                      .gather = make.make("whitewater/gather"),
+                      .surface = make.make("whitewater/surface", texels),
+                      .births = make.make("whitewater/births", texels),
+                      .begin = make.make("whitewater/begin"),
+                      .advance = make.make("whitewater/advance", texels),
+                      .compact = make.make("whitewater/compact"),
+                      .emit = make.make("whitewater/emit"),
+                      .finish = make.make("whitewater/finish")};
+  if (auto made = make.result(); !made) return made.error();
+  if (auto made = impl->makeBuffers(device); !made) return made.error();
+  const size_t staged = desc.snapshot ? desc.snapshot->place.size() : 0;
+  auto staging = createBuffer(device, "whitewater start", kWhiteCountBytes + staged * 32, MemoryKind::Upload);
+  if (!staging) return staging.error();
+  impl->staging_ = *std::move(staging);
+  impl->stage(desc.snapshot);
+  return impl;
+}
+
+Expected<void> WhitewaterImpl::makeBuffers(Device& device) {
+  struct Kept {
+    const char* name;
+    Buffer* buffer;
+    uint64_t size;
+  };
+  for (const Kept& kept :
+       {Kept{"whitewater places", &place_, uint64_t{desc.room} * 16}, Kept{"whitewater motions", &motion_, uint64_t{desc.room} * 16},
+        Kept{"whitewater counts", &counts_, kWhiteCountBytes}}) {
+    auto made = createBuffer(device, kept.name, kept.size);
+    if (!made) return made.error();
+    *kept.buffer = *std::move(made);
+  }
+  return {};
+}
+
+/// Counts, then places, then motions.
+void WhitewaterImpl::stage(const WhitewaterSnapshot* snapshot) {
+  std::byte* to = staging_.mapped();
+  std::memset(to, 0, kWhiteCountBytes);
+  if (!snapshot || snapshot->counts.empty()) return;
+  std::memcpy(to, snapshot->counts.data(), kWhiteCountBytes);
+  staged_ = snapshot->place.size();
+  if (staged_ == 0) return;
+  std::memcpy(to + kWhiteCountBytes, snapshot->place.data(), staged_ * 16);
+  std::memcpy(to + kWhiteCountBytes + staged_ * 16, snapshot->motion.data(), staged_ * 16);
+}
+
+WhitePush WhitewaterImpl::pushFor(const FluidState& fluid, double seconds, const Double3& gravity) const {
+  WhitePush push{};
+  push.spacing = fluid.spacing;
+  push.seconds = static_cast<float>(seconds);
+  push.gravityX = static_cast<float>(gravity.x);
+  push.gravityY = static_cast<float>(gravity.y);
+  push.gravityZ = static_cast<float>(gravity.z);
+  if (desc.domain) {
+    const Double3 &low = desc.domain->min, &high = desc.domain->max;
+    push.lowX = static_cast<float>(low.x - desc.origin.x);
+    push.lowY = static_cast<float>(low.y - desc.origin.y);
+    push.lowZ = static_cast<float>(low.z - desc.origin.z);
+    push.highX = static_cast<float>(high.x - desc.origin.x);
+    push.highY = static_cast<float>(high.y - desc.origin.y);
+    push.highZ = static_cast<float>(high.z - desc.origin.z);
+    push.walls = 63u & ~uint32_t{desc.domain->open};
+    if (desc.domain->outflow) push.walls &= ~(1u << sideBit(desc.domain->outflow->side));
+  }
+  push.capacity = desc.capacity;
+  push.particles = fluid.capacity;
+  push.room = desc.room;
+  push.bins = bins_;
+  push.parcel = static_cast<float>(desc.parcel_m3);
+  push.trapping = static_cast<float>(desc.trapping);
+  push.breaking = static_cast<float>(desc.breaking);
+  push.life = static_cast<float>(desc.life_s);
+  push.seed = static_cast<uint32_t>(desc.seed ^ desc.seed >> 32);
+  return push;
+}
+
+/// The state at the start goes to the device with the first frame.
+void WhitewaterImpl::upload(Graph& graph, Frame& f) {
+  if (started_) {
+    staging_ = {};  // the frame that read it has been recorded
+    return;
+  }
+  started_ = true;
+  const BufferRef start = importWhole(graph, "whitewater start", staging_);
+  graph.pass("whitewater start", [&](Pass& pass) {
+    pass.read(start, Use::CopySource);
+    f.counts = pass.write(f.counts, Use::CopyTarget, true);
+    f.whitePlace = pass.write(f.whitePlace, Use::CopyTarget, true);
+    f.whiteMotion = pass.write(f.whiteMotion, Use::CopyTarget, true);
+    return [start, f, staged = staged_](Commands& commands) {
+      commands.copy(start, f.counts, kWhiteCountBytes);
+      if (staged == 0) return;
+      commands.copy(start, f.whitePlace, staged * 16, kWhiteCountBytes);
+      commands.copy(start, f.whiteMotion, staged * 16, kWhiteCountBytes + staged * 16);
+    };
+  });
+}
+
+/// A pass of one dispatch over the frame's buffers, which shaders know by these names.
+void WhitewaterImpl::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
+  addDispatch(graph, name, pipeline, size, f.push,
+              {{"position", std::as_const(f.position)},
+               {"velocity", std::as_const(f.velocity)},
+               {"particle_count", std::as_const(f.particleCount)},
+               {"keys", f.keys},
+               {"order", f.order},
+               {"start", f.start},
+               {"place", f.place},
+               {"motion", f.motion},
+               {"surface", f.surface},
+               {"strain", f.strain},
+               {"births", f.births},
+               {"white_place", f.whitePlace},
+               {"white_motion", f.whiteMotion},
+               {"moved_place", f.movedPlace},
+               {"moved_motion", f.movedMotion},
+               {"alive", f.alive},
+               {"counts", f.counts},
+               {"arguments", f.arguments}});
+}
+
+/// The fluid in the order of the bins, its surface and its strain, and what it emits.
+void WhitewaterImpl::addFluid(Graph& graph, Frame& f) const {
+  const uint64_t fluid = desc.capacity, over = divideUp(fluid, kWhiteGroup);
+  f.keys = graph.create("whitewater keys", {fluid * 4});
+  f.place = graph.create("whitewater fluid places", {fluid * 16});
+  f.motion = graph.create("whitewater fluid motions", {fluid * 16});
+  f.surface = graph.create("whitewater surface", {fluid * 16});
+  f.strain = graph.create("whitewater strain", {fluid * 4});
+  f.births = graph.create("whitewater births", {paddedWords(fluid + 1) * 4});
+  add(graph, "whitewater keys", pipelines_.keys, over, f);
+  const SortedKeys sorted = sort_->addTo(graph, f.keys);
+  f.order = sorted.order;
+  f.start = sorted.start;
+  add(graph, "whitewater gather", pipelines_.gather, over, f);
+  add(graph, "whitewater surface", pipelines_.surface, over, f);
+  addFill(graph, "whitewater clear", {{&f.births, 0}});
+  add(graph, "whitewater births", pipelines_.births, over, f);
+  f.births = birthScan_.addTo(graph, f.births);
+}
+
+WhitewaterState WhitewaterImpl::addTo(Graph& graph, const FluidState& fluid, double seconds, const Double3& gravity) {
+  desc.gravity = gravity;
+  Frame f;
+  f.whitePlace = importWhole(graph, "whitewater places", place_);
+  f.whiteMotion = importWhole(graph, "whitewater motions", motion_);
+  f.counts = importWhole(graph, "whitewater counts", counts_);
+  upload(graph, f);
+  if (seconds > 0 && fluid.capacity > 0) {
+    f.push = pushFor(fluid, seconds, gravity);
+    f.position = fluid.position;
+    f.velocity = fluid.velocity;
+    f.particleCount = particleCount(graph, fluid);
+    f.arguments = graph.create("whitewater arguments", {sizeof(VkDispatchIndirectCommand)});
+    f.movedPlace = graph.create("whitewater moved places", {uint64_t{desc.room} * 16});
+    f.movedMotion = graph.create("whitewater moved motions", {uint64_t{desc.room} * 16});
+    f.alive = graph.create("whitewater alive", {paddedWords(uint64_t{desc.room} + 1) * 4});
+    add(graph, "whitewater begin", pipelines_.begin, 1, f);
+    addFluid(graph, f);
+    const DispatchSize old{f.arguments, 0};
+    addFill(graph, "whitewater clear", {{&f.alive, 0}});
+    add(graph, "whitewater advance", pipelines_.advance, old, f);
+    f.alive = aliveScan_.addTo(graph, f.alive);
+    add(graph, "whitewater compact", pipelines_.compact, old, f);
+    add(graph, "whitewater emit", pipelines_.emit, divideUp(desc.capacity, kWhiteGroup), f);
+    add(graph, "whitewater finish", pipelines_.finish, 1, f);
+  }
+  return {f.whitePlace, f.whiteMotion, f.counts, desc.room};
+}
+
+Expected<Whitewater> Whitewater::create(Device& device, const WhitewaterDesc& desc) {
+  auto impl = WhitewaterImpl::create(device, desc);
+  if (!impl) return impl.error();
+  return Whitewater(*std::move(impl));
+}
+
+Whitewater::Whitewater(std::unique_ptr<WhitewaterImpl> impl) : impl_(std::move(impl)) {}
+Whitewater::~Whitewater() = default;
+Whitewater::Whitewater(Whitewater&&) noexcept = default;
+Whitewater& Whitewater::operator=(Whitewater&&) noexcept = default;
+
+WhitewaterState Whitewater::addTo(Graph& graph, const FluidState& fluid, double seconds, std::optional<Double3> gravity) {
+  auto valid = checkFluid(graph, fluid);
+  if (valid && fluid.capacity > impl_->desc.capacity)
+    valid = whiteError(ErrorKind::BadInput, "FluidState::capacity is " + grouped(fluid.capacity) + "; expected at most " +
+                                                grouped(impl_->desc.capacity) + ", the whitewater's capacity");
+  if (valid && fluid.capacity > 0 && fluid.velocity == BufferRef{})
+    valid = whiteError(ErrorKind::BadInput, "FluidState::velocity is null; expected the velocities of the fluid");
+  if (valid && !(seconds >= 0 && seconds <= 1e6))
+    valid = whiteError(ErrorKind::BadInput, "the step is " + shortestNumber(seconds) + "; expected 0 to 1e6 (s)");
+  const Double3 pull = gravity.value_or(impl_->desc.gravity);
+  for (const double a : pull)
+    if (valid && !std::isfinite(a))
+      valid = whiteError(ErrorKind::BadInput, "gravity is " + shortestNumber(a) + "; expected finite numbers (m/s^2)");
+  if (!valid) {
+    implOf(graph).fail(valid.error().message);
+    return {};
+  }
+  return impl_->addTo(graph, fluid, seconds, pull);
+}
+
+const WhitewaterDesc& Whitewater::desc() const { return impl_->desc; }
+uint64_t Whitewater::bytes() const { return impl_->bytes; }
+
+WhitewaterStats whitewaterStats(std::span<const uint32_t> counts) {
+  WhitewaterStats stats;
+  if (counts.size() < kWhiteCountWords) return stats;
+  const auto both = [&](uint32_t low) { return counts[low] | uint64_t{counts[low + 1]} << 32; };
+  stats.spray = counts[kWhiteSprayCount + kWhiteSpray];
+  stats.foam = counts[kWhiteSprayCount + kWhiteFoam];
+  stats.bubbles = counts[kWhiteSprayCount + kWhiteBubble];
+  stats.emitted = both(kWhiteEmitted);
+  stats.dissolved = both(kWhiteDissolved);
+  stats.overflow = both(kWhiteOverflow);
+  stats.boundHits = counts[kWhiteBoundHits];
+  return stats;
+}
+
+}  // namespace rill
