@@ -6,12 +6,16 @@ void visit(uint slot, vec3 to, float square);  // `to`: from the point, m; `squa
 bool walk(vec3 x) {
   const ivec3 cell = cellAt(x);
   const float inverse = 1.0 / (support() * support());
+  const vec3 within = x / support() - vec3(cell);
   uint left = kWhiteMaxVisits;
   for (int k = 0; k < 9; ++k) {
-    const ivec2 near = cell.xy + ivec2(k / 3, k % 3) - 1;
-    const uint column = columnOf(near), first = binOf(ivec3(near, cell.z - 1)), last = first + 2u;
-    // Three cells along z are one range, or two at the end of the bins
-    const uint parts = last < white.bins ? 1u : 2u;
+    const ivec2 to = ivec2(k / 3, k % 3) - 1, near = cell.xy + to;
+    const vec2 gap = mix(mix(vec2(0.0), within.xy, lessThan(to, ivec2(0))), 1.0 - within.xy, greaterThan(to, ivec2(0)));
+    const float free = 1.0 - dot(gap, gap), reach = sqrt(max(free, 0.0));
+    // Cells along z are one range, or two at the end of the bins
+    const int below = within.z < reach ? 1 : 0, above = 1.0 - within.z < reach ? 1 : 0;
+    const uint column = columnOf(near), first = binOf(ivec3(near, cell.z - below)), last = first + uint(below + above);
+    const uint parts = free <= 0.0 ? 0u : last < white.bins ? 1u : 2u;
     uint part = 0u;
     LOOP_WHILE (part < parts) {
       const uint low = part == 0u ? first : 0u, high = part == 0u ? min(last, white.bins - 1u) : last - white.bins;
@@ -20,9 +24,9 @@ bool walk(vec3 x) {
       left -= end - slot;
       LOOP_WHILE (slot < end) {
         const uvec4 there = placeAt(slot);
-        const vec3 to = uintBitsToFloat(there.xyz) - x;
-        const float square = dot(to, to) * inverse;
-        if (square < 1.0 && there.w == column) visit(slot, to, square);
+        const vec3 off = uintBitsToFloat(there.xyz) - x;
+        const float square = dot(off, off) * inverse;
+        if (square < 1.0 && there.w == column) visit(slot, off, square);
         ++slot;
       } LOOP_END(slot < end);
       ++part;

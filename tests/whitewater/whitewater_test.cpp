@@ -154,7 +154,7 @@ TEST_F(WhitewaterTest, EmissionMatchesReferenceOfRandomInput) {
       fluid.positions.push_back(walls ? glm::abs(dvec3(in(random), in(random), in(random))) : dvec3(in(random), in(random), in(random)));
       fluid.velocities.push_back({2, noise(random), 2});
     }
-    WhitewaterDesc desc{.capacity = uint32_t(fluid.positions.size()) + 40, .room = 20'000, .parcel_m3 = 1e-6, .breaking = 0.5};
+    WhitewaterDesc desc{.capacity = uint32_t(fluid.positions.size()) + 40, .room = 20'000, .parcel_m3 = 4e-7, .breaking = 0.5};
     if (walls) desc.domain = Domain{.min = {0, 0, 0}, .max = {1, 1, 1}, .open = SideMask(1u << sideBit(Axis::PlusY))};
     Whitewater white = create(desc);
     const double seconds = 0.01;
@@ -232,10 +232,10 @@ double emittedPerSecond(const WhitewaterStats& stats, double seconds) { return d
 
 TEST_F(WhitewaterTest, EmissionIsIndependentOfFrameRateAndSpacing) {
   const auto vortices = [](const dvec3& x) {
-    return dvec3(1.5 + std::sin(15 * x.x) * std::cos(15 * x.y), 0.5 - std::cos(15 * x.x) * std::sin(15 * x.y), 0.5 * std::sin(9 * x.z));
+    return 1.5 * dvec3(1.5 + std::sin(12 * x.x) * std::cos(12 * x.y), 0.5 - std::cos(12 * x.x) * std::sin(12 * x.y), std::sin(9 * x.z) / 3);
   };
   const auto impact = [](const dvec3& x) { return dvec3(x.x < 0.24 ? 2.5 : -1.0, 0, 0); };  // a jump of 3.5 m/s
-  const auto outward = [](const dvec3& x) { return 2.5 * glm::normalize(x); };
+  const auto outward = [](const dvec3& x) { return 3.0 * glm::normalize(x); };
   struct Case {
     const char* name;
     std::function<WhiteFluid(double)> fluid;
@@ -340,12 +340,12 @@ TEST_F(WhitewaterTest, BoundsCountAndCountsOverflow) {
     EXPECT_EQ(stats.overflow, free.emitted - room);
   }
   WhitewaterDesc many = wide;  // more than kWhiteMaxBirths from each particle
-  many.parcel_m3 = 1e-12;
+  many.parcel_m3 = 1e-13;
   many.room = 200'000;
   Whitewater white = create(many);
   const WhitewaterStats stats = whitewaterStats(step(white, fluid, 0.01).counts);
-  EXPECT_LE(stats.emitted, uint64_t{kWhiteMaxBirths} * fluid.positions.size());
-  EXPECT_GT(stats.overflow, 10 * stats.emitted);
+  EXPECT_EQ(stats.emitted, many.room);
+  EXPECT_GT(stats.overflow, uint64_t{kWhiteMaxBirths} * fluid.positions.size());
 }
 
 TEST_F(WhitewaterTest, DegenerateInput) {
