@@ -221,7 +221,16 @@ class Capture {
     if (!particles) return particles.error();
     if (options_.exportPly)
       if (auto written = apps::writePly(folder_->frame(k, "ply"), *particles, time_s); !written) return written;
+    if (auto written = writeWhitewater(k, time_s); !written) return written;
     return options_.exportVtk ? apps::writeFile(folder_->frame(k, "vtu"), apps::encodeVtu(*particles, time_s)) : Expected<void>();
+  }
+
+  /// Beside the particles, where the scene has whitewater.
+  Expected<void> writeWhitewater(uint32_t k, double time_s) {
+    if (!options_.exportPly || !scene_.look.whitewater) return {};
+    auto particles = simulation_->whitewater();
+    if (!particles) return particles.error();
+    return apps::writeFile(folder_->frame(k, "whitewater.ply"), apps::encodeWhitewaterPly(*particles, time_s));
   }
 
   Expected<void> writeMesh(uint32_t k, double time_s) {

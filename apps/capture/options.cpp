@@ -74,7 +74,8 @@ void declare(CLI::App& app, Raw& raw) {
   once("--video", raw.video, "also write the images as a video (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
   app.add_flag("--no-images", raw.noImages, "write no image files; without --video render none")->group(written);
   list("--export", raw.exportAs,
-       "write of each frame the particles (ply; vtk: .vtu and DIR/particles.pvd for ParaView), the fluid's surface (mesh), or where the "
+       "write of each frame the particles (ply, those of whitewater as .whitewater.ply; vtk: .vtu and DIR/particles.pvd for ParaView), the "
+       "fluid's surface (mesh), or where the "
        "solids are (poses: DIR/poses.csv); may be repeated",
        "FORMAT", written);
   once("--mesh-format", raw.meshFormat, "of --export mesh: ply, obj, glb or vtp (with DIR/mesh.pvd) (default: ply)", "FORMAT", written);

@@ -28,12 +28,14 @@ namespace {
 
 void message(const std::string& text) { apps::printMessage("rill-capture", text); }
 
-/// DIR/*.ply in order of their names, without meshes.
+/// DIR/*.ply in order of their names, without meshes and whitewater.
 Expected<std::vector<fs::path>> filesIn(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->path().extension() == ".ply" && !at->path().string().ends_with(".mesh.ply")) files.push_back(at->path());
+    if (const std::string name = at->path().string();
+        name.ends_with(".ply") && !name.ends_with(".mesh.ply") && !name.ends_with(".whitewater.ply"))
+      files.push_back(at->path());
   if (error) return Error{ErrorKind::BadInput, "--play: cannot read the folder " + inQuotes(folder.string()) + ": " + error.message()};
   if (files.empty())
     return Error{ErrorKind::BadInput, "--play: " + inQuotes(folder.string()) + " contains no .ply file; expected a folder of frames"};

@@ -77,6 +77,11 @@ Json jsonOf(const FluidLedger& l, uint64_t active) {
           {"drained", l.drained}, {"left", l.left},      {"inactive", l.inactive}};
 }
 
+Json jsonOf(const WhitewaterStats& w) {
+  return {{"spray", w.spray},     {"foam", w.foam},           {"bubbles", w.bubbles},
+          {"emitted", w.emitted}, {"dissolved", w.dissolved}, {"overflow", w.overflow}};
+}
+
 Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   Json probes = Json::object(), pass_ms = Json::object(), skipped = Json::object();
   for (const auto& [name, value] : stats.probes) probes[name] = std::visit([](const auto& v) { return jsonOf(v); }, value);
@@ -107,6 +112,7 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   frame["list_builds"] = stats.listBuilds;
   frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
   if (stats.sleeping) frame["sleeping"] = *stats.sleeping;
+  if (stats.whitewater) frame["whitewater"] = jsonOf(*stats.whitewater);
   frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
   const bool flows = hasEmitters(scene) || !scene.drains.empty() || hasRemovingSides(scene);
@@ -198,6 +204,16 @@ std::vector<Figure> Record::figures() const {
     figures.push_back({"bodies.stopped", double(bodies.stopped), ""});
   }
   if (scene_->solver.sleep) figures.push_back({"sleeping", double(last.sleeping.value_or(0)), ""});
+  if (scene_->look.whitewater) {
+    const WhitewaterStats white = last.whitewater.value_or(WhitewaterStats{});
+    for (const auto& [name, count] : {std::pair{"spray", white.spray},
+                                      {"foam", white.foam},
+                                      {"bubbles", white.bubbles},
+                                      {"emitted", white.emitted},
+                                      {"dissolved", white.dissolved},
+                                      {"overflow", white.overflow}})
+      figures.push_back({std::string("whitewater.") + name, double(count), ""});
+  }
   for (const Probe& probe : scene_->probes) {
     const auto found =
         std::find_if(last.probes.begin(), last.probes.end(), [&](const auto& measured) { return measured.first == probe.name; });
@@ -288,6 +304,9 @@ std::vector<std::string> Record::warnings() const {
   if (last.bodies && last.bodies->stopped > 0)
     warnings.push_back("warning: " + grouped(last.bodies->stopped) + (last.bodies->stopped == 1 ? " body was" : " bodies were") +
                        " stopped: farther from the start than positions can be told apart");
+  if (last.whitewater && last.whitewater->overflow > 0)
+    warnings.push_back("warning: whitewater is incomplete: there was no room for " + grouped(last.whitewater->overflow) +
+                       " of its particles");
   if (const uint64_t hits = pictureBoundHits(); hits > 0) warnings.push_back(boundHitsWarning(hits));
   return warnings;
 }

@@ -27,13 +27,17 @@ std::string shortest(double value) {
   return error == std::errc{} ? std::string(text, end) : "0";
 }
 
+std::string headOf(double time_s, const char* comments, size_t count) {
+  return "ply\nformat binary_little_endian 1.0\ncomment time " + shortest(time_s) + "\n" + comments + "element vertex " +
+         std::to_string(count) + "\n";
+}
+
 }  // namespace
 
 std::vector<std::byte> encodePly(const offline::Particles& particles, double time_s) {
   const size_t count = particles.positions.size();
   assert(particles.velocities.size() == count && particles.densities.size() == count && particles.ids.size() == count);
-  std::string header =
-      "ply\nformat binary_little_endian 1.0\ncomment time " + shortest(time_s) + "\nelement vertex " + std::to_string(count) + "\n";
+  std::string header = headOf(time_s, "", count);
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "density"}) header += std::string("property float ") + name + "\n";
   header += "property uint id\nend_header\n";
 
@@ -44,6 +48,26 @@ std::vector<std::byte> encodePly(const offline::Particles& particles, double tim
     const Float3 &p = particles.positions[i], &v = particles.velocities[i];
     const Vertex vertex{{p.x, p.y, p.z}, {v.x, v.y, v.z}, particles.densities[i], particles.ids[i]};
     std::memcpy(next, &vertex, sizeof vertex);
+  }
+  return bytes;
+}
+
+std::vector<std::byte> encodeWhitewaterPly(const offline::DiffuseParticles& particles, double time_s) {
+  const size_t count = particles.positions.size();
+  assert(particles.velocities.size() == count && particles.ages.size() == count && particles.classes.size() == count);
+  std::string header = headOf(time_s, "comment class 0 spray, 1 foam, 2 bubble\n", count);
+  for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "age"}) header += std::string("property float ") + name + "\n";
+  header += "property uchar class\nend_header\n";
+
+  constexpr size_t kBytes = 29;  // seven floats and a byte
+  std::vector<std::byte> bytes(header.size() + count * kBytes);
+  std::memcpy(bytes.data(), header.data(), header.size());
+  std::byte* next = bytes.data() + header.size();
+  for (size_t i = 0; i < count; ++i, next += kBytes) {
+    const Float3 &p = particles.positions[i], &v = particles.velocities[i];
+    const float numbers[7] = {p.x, p.y, p.z, v.x, v.y, v.z, particles.ages[i]};
+    std::memcpy(next, numbers, sizeof numbers);
+    next[sizeof numbers] = static_cast<std::byte>(particles.classes[i]);
   }
   return bytes;
 }

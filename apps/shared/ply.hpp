@@ -14,4 +14,7 @@ std::vector<std::byte> encodePly(const offline::Particles& particles, double tim
 /// Writes that to a file, atomically. Io, with the name of the file.
 Expected<void> writePly(const std::filesystem::path& file, const offline::Particles& particles, double time_s);
 
+/// Diffuse particles likewise: float x y z vx vy vz age (s), uchar class (0 spray, 1 foam, 2 bubble).
+std::vector<std::byte> encodeWhitewaterPly(const offline::DiffuseParticles& particles, double time_s);
+
 }  // namespace rill::apps

@@ -253,7 +253,11 @@ struct Table<Look> {
       Field{Info{.key = "environment",
                  .help = "equirectangular environment map (.hdr, or .png or .jpg as sRGB) in place of the sky; the path is "
                          "relative to the scene file, at most 8192x4096 pixels"},
-            &Look::environment}};
+            &Look::environment},
+      Field{Info{.key = "whitewater",
+                 .help = "true: foam, spray and bubbles are simulated as diffuse particles; false: drops and thin sheets are drawn white",
+                 .since = "0.2"},
+            &Look::whitewater}};
 };
 
 template <>

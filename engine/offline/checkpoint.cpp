@@ -24,12 +24,13 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied without byte swapping");
 
 constexpr std::string_view kMagic = "RILLCKPT";
-constexpr uint32_t kFormat = 15;
+constexpr uint32_t kFormat = 16;
 constexpr uint64_t kHeaderBytes = 24, kTableEntryBytes = 16, kChecksumBytes = 8;
 
 /// Calls visit(section name, array) for the arrays of the state in the order of the file.
-template <class Snapshot, class Visit>
-void forEachArray(Snapshot& s, Visit&& visit) {
+template <class AnyCheckpoint, class Visit>
+void forEachArray(AnyCheckpoint& checkpoint, Visit&& visit) {
+  auto& s = checkpoint.fluid;
   visit("control", s.control);
   visit("sums", s.sums);
   visit("solids", s.solids);
@@ -44,11 +45,15 @@ void forEachArray(Snapshot& s, Visit&& visit) {
   visit("nbrcount", s.neighborCount);
   visit("nbrs", s.neighbors);
   visit("cell", s.cell);
+  auto& white = checkpoint.whitewater;
+  visit("wwcounts", white.counts);
+  visit("wwplace", white.place);
+  visit("wwmotion", white.motion);
 }
 /// The run information is the first section, then come the arrays.
 uint64_t countSections() {
   uint64_t sections = 1;
-  FluidSnapshot none;
+  const Checkpoint none;
   forEachArray(none, [&](const char*, const auto&) { ++sections; });
   return sections;
 }
@@ -170,7 +175,7 @@ std::vector<std::byte> encodeCheckpoint(const Checkpoint& checkpoint) {
   Writer about;
   writeRunInfo(about, checkpoint);
   uint64_t total = kHeaderBytes + kSections * kTableEntryBytes + padded(about.bytes.size()) + kChecksumBytes;
-  forEachArray(checkpoint.fluid, [&](const char*, const auto& array) { total += padded(std::as_bytes(std::span(array)).size()); });
+  forEachArray(checkpoint, [&](const char*, const auto& array) { total += padded(std::as_bytes(std::span(array)).size()); });
 
   Writer file;
   file.bytes.reserve(total);
@@ -180,13 +185,13 @@ std::vector<std::byte> encodeCheckpoint(const Checkpoint& checkpoint) {
   file.number(total);
   file.name("about");
   file.number(static_cast<uint64_t>(about.bytes.size()));
-  forEachArray(checkpoint.fluid, [&](const char* name, const auto& array) {
+  forEachArray(checkpoint, [&](const char* name, const auto& array) {
     file.name(name);
     file.number(static_cast<uint64_t>(std::as_bytes(std::span(array)).size()));
   });
   file.raw(about.bytes.data(), about.bytes.size());
   file.pad();
-  forEachArray(checkpoint.fluid, [&](const char*, const auto& array) {
+  forEachArray(checkpoint, [&](const char*, const auto& array) {
     file.raw(array.data(), std::as_bytes(std::span(array)).size());
     file.pad();
   });
@@ -224,7 +229,7 @@ Expected<Checkpoint> decodeCheckpoint(std::span<const std::byte> bytes, std::str
   };
   Checkpoint checkpoint;
   if (!readRunInfo(next("about", 1), checkpoint) && problem.empty()) problem = "is corrupted: invalid run information";
-  forEachArray(checkpoint.fluid, [&](const char* section, auto& array) {
+  forEachArray(checkpoint, [&](const char* section, auto& array) {
     using Record = typename std::decay_t<decltype(array)>::value_type;
     const auto from = next(section, sizeof(Record));
     array.resize(from.size() / sizeof(Record));

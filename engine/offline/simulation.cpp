@@ -18,10 +18,12 @@
 #include "offline/readout.hpp"
 #include "offline/simulation_keys.hpp"
 #include "offline/state_hash.hpp"
+#include "offline/whitewater_run.hpp"
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
 #include "shape/mass.hpp"
 #include "shape/pose.hpp"
+#include "whitewater/whitewater_records.h"
 
 namespace rill::offline {
 namespace {
@@ -91,8 +93,8 @@ class Simulation::Impl {
       time_s_ = from->time_s;
       addResumeWarnings(*from);
     }
-    for (Graph* graph : {&advanceGraph_, &measureGraph_, &renderGraph_}) graph->enableTimings(options_.passTimes);
-    return {};
+    for (Graph* graph : {&advanceGraph_, &measureGraph_, &whiteGraph_, &renderGraph_}) graph->enableTimings(options_.passTimes);
+    return scene_.look.whitewater && fluid_->capacity() > 0 ? openWhitewater(from) : Expected<void>();
   }
 
   Expected<void> advance(double seconds) {
@@ -158,6 +160,13 @@ class Simulation::Impl {
     return Error{ErrorKind::Failed, "making the mesh: its size is not what it was found to be"};
   }
 
+  Expected<DiffuseParticles> whitewater() {
+    if (!white_) return DiffuseParticles{};
+    auto state = readWhitewater();
+    if (!state) return state.error();
+    return diffuseParticles(*state, start_.origin);
+  }
+
   Expected<std::vector<PoseValue>> poses() {
     if (auto measured = measure(); !measured) return measured.error();
     std::vector<PoseValue> all;
@@ -181,6 +190,7 @@ class Simulation::Impl {
     stats.front_m = reader.front(Axis::PlusX);
     stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies());
     for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, valueOf(probe, reader));
+    if (white_) stats.whitewater = whiteStats_;
     stats.pictureBoundHits = pictureBoundHits_;
     stats.wall_s = wall_s_;
     stats.passes = log_.times();
@@ -207,6 +217,11 @@ class Simulation::Impl {
       if (auto taken = reader.take(graph); !taken) return taken.error();
     }
     c.fluid = std::move(reader.snapshot());
+    if (white_) {
+      auto state = readWhitewater();
+      if (!state) return state.error();
+      c.whitewater = *std::move(state);
+    }
     return c;
   }
 
@@ -241,8 +256,11 @@ class Simulation::Impl {
   }
   std::vector<FrameMemory> transientMemory() const {
     std::vector<FrameMemory> all;
-    for (const auto& [frame, graph] :
-         {std::pair{"advance", &advanceGraph_}, {"measure", &measureGraph_}, {"mesh", &meshGraph_}, {"picture", &renderGraph_}})
+    for (const auto& [frame, graph] : {std::pair{"advance", &advanceGraph_},
+                                       {"measure", &measureGraph_},
+                                       {"mesh", &meshGraph_},
+                                       {"whitewater", &whiteGraph_},
+                                       {"picture", &renderGraph_}})
       if (const auto heaps = graph->transientHeaps(); !heaps.empty()) all.push_back({frame, {heaps.begin(), heaps.end()}});
     return all;
   }
@@ -384,10 +402,53 @@ class Simulation::Impl {
   /// Runs `seconds` in frames of equal length, at most longestFrame_s.
   Expected<void> advanceFrames(double seconds) {
     const auto frames = static_cast<uint64_t>(std::max(1.0, std::ceil(seconds / options_.longestFrame_s - 1e-9)));
-    const Advances::Work work{.advance_s = seconds / double(frames),
-                              .advances = advances_->ended() + frames,
-                              .budget_s = kPiece,
-                              .substeps = options_.substepsPerSubmit};
+    if (!white_) return advanceFluid(seconds / double(frames), frames);
+    for (uint64_t k = 0; k < frames; ++k) {
+      if (auto ran = advanceFluid(seconds / double(frames), 1); !ran) return ran;
+      if (auto ran = stepWhitewater(); !ran) return ran;
+    }
+    return {};
+  }
+
+  /// `from`: the checkpoint to continue from, or null.
+  Expected<void> openWhitewater(const Checkpoint* from) {
+    WhitewaterDesc desc = whitewaterOf(scene_, start_, fluid_->capacity());
+    if (from) desc.snapshot = &from->whitewater;
+    auto white = Whitewater::create(context_->device(), desc);
+    if (!white) return white.error();
+    white_.emplace(*std::move(white));
+    if (from && from->whitewater.counts.empty()) warnings_.push_back("the checkpoint has no whitewater: there is none at the start");
+    if (from) whiteStats_ = whitewaterStats(from->whitewater.counts);
+    return {};
+  }
+
+  /// One step for the advance that has ended.
+  Expected<void> stepWhitewater() {
+    Ticket counts;
+    auto ran = run(whiteGraph_, [&](Graph& graph) {
+      const FluidState state = fluid_->addTo(graph, {});
+      counts = graph.readback(white_->addTo(graph, state, frame_s_, gravityAt(scene_, fluid_->progress().time_s)).counts);
+    });
+    if (!ran) return ran;
+    std::array<uint32_t, kWhiteCountWords> words{};
+    const auto bytes = whiteGraph_.data(counts);
+    std::memcpy(words.data(), bytes.data(), std::min(bytes.size(), sizeof words));
+    whiteStats_ = whitewaterStats(words);
+    return {};
+  }
+
+  Expected<WhitewaterSnapshot> readWhitewater() {
+    WhitewaterTickets tickets;
+    Graph graph;  // a separate graph, to release its read-back memory afterwards
+    auto ran = runUnlogged(graph, [&](Graph& g) { tickets = whitewaterReadout(g, white_->addTo(g, {}, 0)); });
+    if (!ran) return ran.error();
+    return collectWhitewater(graph, tickets);
+  }
+
+  /// Runs frames of `seconds` each.
+  Expected<void> advanceFluid(double seconds, uint64_t frames) {
+    const Advances::Work work{
+        .advance_s = seconds, .advances = advances_->ended() + frames, .budget_s = kPiece, .substeps = options_.substepsPerSubmit};
     while (advances_->ended() < work.advances || advances_->inFlight() > 0) {
       if (auto submitted = advances_->submit(work); !submitted) return submitted;
       auto ended = advances_->finish(log_);
@@ -399,6 +460,7 @@ class Simulation::Impl {
       advanced_.listBuilds += done.listBuilds;
       // Time that the recorded substeps did not cover is dropped by the next advance.
       advanced_.timeDropped_s += std::max(done.timeDropped_s, done.timeLeft_s);
+      frame_s_ = std::max(0.0, seconds - std::max(done.timeDropped_s, done.timeLeft_s));
       if (!done.asleep || done.substeps > 0) asleep_.reset();
     }
     return {};
@@ -438,7 +500,10 @@ class Simulation::Impl {
   std::optional<Fluid> fluid_;
   Painter painter_{scene_, start_, options_.orbit_degPerS, options_.exposure_stops};
   // One graph per kind of frame, so that each keeps its memory plan.
-  Graph advanceGraph_, measureGraph_, meshGraph_, renderGraph_;
+  Graph advanceGraph_, measureGraph_, meshGraph_, whiteGraph_, renderGraph_;
+  std::optional<Whitewater> white_;  ///< with Look::whitewater
+  WhitewaterStats whiteStats_;       ///< at the current time
+  double frame_s_ = 0;               ///< simulated time of the last frame
   std::optional<SurfaceMesher> mesher_;
   double mesherCell_ = 0;  ///< spacings
   std::optional<Advances> advances_;
@@ -499,6 +564,9 @@ Expected<Particles> Simulation::particles(Order order) {
 }
 Expected<SurfaceTriangles> Simulation::mesh(double cell) {
   return guarded("making the mesh", [&] { return impl_->mesh(cell); });
+}
+Expected<DiffuseParticles> Simulation::whitewater() {
+  return guarded("reading the whitewater", [&] { return impl_->whitewater(); });
 }
 Expected<std::vector<PoseValue>> Simulation::poses() {
   return guarded("reading the poses", [&] { return impl_->poses(); });

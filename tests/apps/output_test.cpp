@@ -48,6 +48,28 @@ TEST(Ply, EncodesBinaryLittleEndian) {
   EXPECT_EQ(id, 4000000000u);
 }
 
+TEST(Ply, EncodesWhitewaterWithClasses) {
+  offline::DiffuseParticles particles;
+  particles.positions = {{1, 2, 3}, {4, 5, 6}};
+  particles.velocities = {{-1, 0, 0.5f}, {0, 0, 7}};
+  particles.ages = {0.25f, 1.5f};
+  particles.classes = {WhitewaterClass::Spray, WhitewaterClass::Bubble};
+  const auto bytes = encodeWhitewaterPly(particles, 0.25);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment time 0.25\ncomment class 0 spray, 1 foam, 2 bubble\nelement vertex 2\n"
+      "property float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float vy\nproperty float vz\nproperty float "
+      "age\nproperty uchar class\nend_header\n";
+  ASSERT_EQ(text.substr(0, header.size()), header);
+  ASSERT_EQ(bytes.size(), header.size() + 2 * 29);
+  float values[7];
+  std::memcpy(values, bytes.data() + header.size() + 29, sizeof values);
+  EXPECT_EQ(values[0], 4);
+  EXPECT_EQ(values[5], 7);
+  EXPECT_EQ(values[6], 1.5f);
+  EXPECT_EQ(static_cast<int>(bytes.back()), 2);
+}
+
 TEST(Ply, EncodesHeaderWithoutParticles) {
   const auto bytes = encodePly({}, 1.0 / 3);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

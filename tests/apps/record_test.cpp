@@ -92,6 +92,25 @@ TEST(Record, TellsHowManyParticlesSleepWhereAsked) {
   EXPECT_EQ(nlohmann::json::parse(record.json())["frames"][1]["sleeping"], 1234);
 }
 
+TEST(Record, CountsWhitewaterWhereTheSceneHasIt) {
+  Scene foamy = scene();
+  foamy.look.whitewater = true;
+  offline::Stats some = stats(0.001, 1, 1);
+  some.whitewater = WhitewaterStats{.spray = 1, .foam = 20, .bubbles = 300, .emitted = 4000, .dissolved = 50, .overflow = 7};
+  Record record(foamy, {}, "");
+  record.add(0, some);
+  const auto frame = nlohmann::json::parse(record.json())["frames"][0]["whitewater"];
+  EXPECT_EQ(frame["spray"], 1);
+  EXPECT_EQ(frame["bubbles"], 300);
+  EXPECT_EQ(frame["overflow"], 7);
+  EXPECT_EQ(figure(record, "whitewater.foam"), 20);
+  EXPECT_EQ(figure(record, "whitewater.emitted"), 4000);
+  const auto warnings = record.warnings();
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& w) { return w.find("no room for 7 of") != std::string::npos; }));
+  const auto names = Record::figureNames(foamy);
+  EXPECT_NE(std::ranges::find(names, "whitewater.dissolved"), names.end());
+}
+
 TEST(Record, DensityErrorExcludesFirstTenth) {
   const Scene small = scene();
   Record record(small, {}, "");

@@ -65,6 +65,10 @@ inline offline::Checkpoint seedCheckpoint() {
   s.listCapacity = 4;
   s.neighborCount = {1, 2, 0, 4, 9, 1};
   s.neighbors = {1, 0, 3, 0, 1, 2, 5, 3};
+  c.whitewater.counts.assign(16, 0);
+  c.whitewater.counts[0] = 2;
+  c.whitewater.place = {{1, 2, 3, 0.5f}, {4, 5, 6, 0}};
+  c.whitewater.motion = {{1, 2, 3, 4}, {5, 6, 7, 9}};
   return c;
 }
 

@@ -23,6 +23,7 @@
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
 #include "rill/snapshot.hpp"
+#include "rill/whitewater.hpp"
 
 namespace rill::offline {
 
@@ -53,6 +54,14 @@ struct Particles {
   std::vector<Float3> velocities = {};  ///< m/s
   std::vector<float> densities = {};    ///< kg/m^3
   std::vector<uint32_t> ids = {};       ///< index in the initial particles: the order of the fills
+};
+
+/// The diffuse particles of whitewater at one time, in the order of the device.
+struct DiffuseParticles {
+  std::vector<Float3> positions = {};   ///< m, scene coordinates
+  std::vector<Float3> velocities = {};  ///< m/s
+  std::vector<float> ages = {};         ///< s, as foam or spray; bubbles age at a quarter of the rate
+  std::vector<WhitewaterClass> classes = {};
 };
 
 /// The surface of the fluid at one time as a closed triangle mesh; see rill/surface_mesher.hpp.
@@ -128,6 +137,7 @@ struct Stats : FluidStats {
   double front_m = 0;                                           ///< farthest fluid along +x, relative to the domain's minimum, m
   uint64_t stateHash = 0;                                       ///< FNV-1a of positions and velocities in id order, then of bodies
   std::vector<std::pair<std::string, ProbeValue>> probes = {};  ///< name and value
+  std::optional<WhitewaterStats> whitewater = {};               ///< with Look::whitewater
   uint64_t pictureBoundHits = 0;      ///< times that shader loops of the renderer reached their limit in pictures at this time
   double wall_s = 0;                  ///< wall-clock time of the last advance()
   std::vector<PassTime> passes = {};  ///< recorded passes of the last advance
@@ -144,6 +154,7 @@ struct Checkpoint {
   double fps = 0;                                              ///< for the caller: frames per second; 0: no sequence
   std::vector<std::pair<std::string, std::string>> keys = {};  ///< scene keys that affect the simulation; resume() requires them to match
   FluidSnapshot fluid = {};
+  WhitewaterSnapshot whitewater = {};  ///< empty without Look::whitewater
   friend bool operator==(const Checkpoint&, const Checkpoint&) = default;
 };
 
@@ -182,6 +193,8 @@ class Simulation {
   /// The surface of the fluid at the current time. `cell`: side of the grid's cells in spacings, 0.25 to 1. BadInput for another one;
   /// TooLarge for a mesh that the device has no room for; other errors as advance().
   Expected<SurfaceTriangles> mesh(double cell = 0.5);
+  /// Foam, spray and bubbles at the current time; none without Look::whitewater. Errors as advance().
+  Expected<DiffuseParticles> whitewater();
   /// Where each solid of the scene is at the current time: its center, or a mesh's origin. Errors as advance().
   Expected<std::vector<PoseValue>> poses();
   Expected<Stats> stats();  ///< statistics at the current time, measured at the first call; errors as advance()

@@ -240,6 +240,7 @@ struct Look {
   std::string surface = "auto";            ///< surface reconstruction: auto, planes, curvature_flow or narrow_range
   std::string sky = "studio";              ///< studio, day or sunset; not used where there is an environment map
   std::filesystem::path environment = {};  ///< environment map; an absolute path once the scene is loaded; empty: the sky
+  bool whitewater = false;                 ///< foam, spray and bubbles as diffuse particles; see rill/whitewater.hpp
 };
 
 /// A scene: SI units, y up, right-handed.
