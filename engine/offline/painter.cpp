@@ -122,18 +122,22 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   finish_ = *finish;
   scenery_ = std::move(*scenery);
   look_.toSun = scenery_->toSun();
+  if (!scene_.look.whitewater) return {};
+  auto white = WhitewaterView::create(device, {}, implOf(*fluid_).environment != nullptr);
+  if (!white) return white.error();
+  whitewater_ = *white;
   return {};
 }
 
 PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height,
-                                double time_s) {
-  PictureTickets tickets{graph.readback(addTo(graph, fluid, view, camera(width, height, time_s), width, height, time_s)), {}};
+                                double time_s, const DrawnWhitewater& white) {
+  PictureTickets tickets{graph.readback(addTo(graph, fluid, view, camera(width, height, time_s), width, height, time_s, white)), {}};
   if (find(view)->kind != Kind::Particles && fluid.capacity > 0) tickets.counters = graph.readback(implOf(*fluid_).last.counters);
   return tickets;
 }
 
 BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view name, const CameraView& eye, uint32_t width,
-                         uint32_t height, double time_s) {
+                         uint32_t height, double time_s, const DrawnWhitewater& white) {
   const View& view = *find(name);
   if (view.kind == Kind::Particles) {
     ParticleViewDesc desc;
@@ -154,7 +158,15 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
   FluidRendererImpl& renderer = implOf(*fluid_);
   const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
-  targets = renderer.addTo(graph, fluid, targets, seen, look_, true, environment);
+  const bool foams = whitewater_ && white.state.room > 0 && fluid.capacity > 0;
+  const BufferRef behind = foams ? whitewater_->addScene(graph, targets.depth, renderer.camera(fluid, seen)) : BufferRef{};
+  FluidLook look = look_;
+  if (foams) look.aeration = 0;  // whitewater comes in its place
+  targets = renderer.addTo(graph, fluid, targets, seen, look, true, environment);
+  if (foams)
+    targets = whitewater_->addTo(graph, white.state, targets, renderer.last.push,
+                                 lookRecord(look_, renderer.last.push, renderer.environment.get()), behind, renderer.last.pixels,
+                                 environment, white.size);
   if (fluid.capacity > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, time_s, renderer.last.pixels);
   return finish_.addTo(graph, targets.color, width, height, exposure_stops_);
 }

@@ -10,6 +10,7 @@
 #include "views/legend.hpp"
 #include "views/particle_view.hpp"
 #include "views/scenery.hpp"
+#include "views/whitewater_view.hpp"
 
 namespace rill::offline {
 
@@ -21,6 +22,12 @@ struct PictureTickets {
 
 /// Number of times that shader loops of the picture reached their limit. The frame must have completed.
 uint64_t boundHits(const Graph& graph, const PictureTickets& tickets);
+
+/// Whitewater of a picture, which the view "final" draws.
+struct DrawnWhitewater {
+  WhitewaterState state = {};  ///< of the same graph; room 0: none
+  double size = 0;             ///< radius of its particles, m
+};
 
 /// Renders the views of a simulation.
 class Painter {
@@ -39,9 +46,10 @@ class Painter {
   Expected<void> prepare(Device& device, std::string_view view, uint32_t width, uint32_t height);
   /// Adds the passes of a picture seen from `eye`; prepare() must have succeeded. The result is RGBA8 in sRGB, top row first.
   BufferRef addTo(Graph& graph, const FluidState& fluid, std::string_view view, const CameraView& eye, uint32_t width, uint32_t height,
-                  double time_s);
+                  double time_s, const DrawnWhitewater& white = {});
   /// The same from the scene's camera, with read-backs.
-  PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s);
+  PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s,
+                         const DrawnWhitewater& white = {});
   /// The color scale of a view; empty for views without one, or before prepare().
   std::optional<LegendDesc> legend(std::string_view view, double time_s) const;
   /// Draws the legend of a view into a finished picture, on the host.
@@ -59,6 +67,7 @@ class Painter {
   std::optional<FluidRenderer> fluid_;
   std::unique_ptr<Scenery> scenery_;
   Finish finish_;
+  std::optional<WhitewaterView> whitewater_;  ///< with Look::whitewater
   FluidLook look_;
 };
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <numbers>
 #include <optional>
 
 #include "core/words.hpp"
@@ -235,7 +236,9 @@ class Simulation::Impl {
     PictureTickets tickets;
     auto ran = run(renderGraph_, [&](Graph& graph) {
       const FluidState state = fluid_->addTo(graph, {});
-      tickets = painter_.declare(graph, state, view, width, height, now);
+      DrawnWhitewater white;
+      if (white_) white = {white_->addTo(graph, state, 0), std::cbrt(white_->desc().parcel_m3 * 3 / (4 * std::numbers::pi))};
+      tickets = painter_.declare(graph, state, view, width, height, now, white);
     });
     if (!ran) return ran.error();
     const auto bytes = renderGraph_.data(tickets.picture);

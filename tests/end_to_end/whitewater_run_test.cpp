@@ -92,5 +92,18 @@ TEST(WhitewaterRun, EmissionOfDamBreakIsIndependentOfFrameRate) {
   for (const int fps : {30, 120}) EXPECT_NEAR(emitted(fps), middle, 0.1 * middle) << fps;
 }
 
+TEST(WhitewaterRun, IsDrawnInTheFinalView) {
+  const auto whitePixels = [](bool whitewater) {
+    Simulation run = opened(Simulation::open(dam(whitewater)));
+    EXPECT_TRUE(run.advance(0.7));
+    const auto image = run.render("final", 160, 90);
+    EXPECT_TRUE(image) << image.error().message;
+    size_t white = 0;  // water is blue
+    for (size_t k = 0; k < image->rgba.size(); k += 4) white += image->rgba[k] > 170 ? 1 : 0;
+    return white;
+  };
+  EXPECT_GT(whitePixels(true), whitePixels(false) + 50);
+}
+
 }  // namespace whitewater_run_test
 }  // namespace rill::offline

@@ -1,0 +1,13 @@
+// How whitewater is drawn; shared by C++ and GLSL.
+#ifndef RILL_WHITEWATER_VIEW_RECORDS_H
+#define RILL_WHITEWATER_VIEW_RECORDS_H
+#include "shared/interop.h"
+RILL_RECORDS_BEGIN
+
+RILL_CONST uint kWhiteSplatGroup = 64u;
+RILL_CONST uint kWhiteLayers = 4u;          // words a pixel: before the surface; behind it as red, green and blue light
+RILL_CONST float kWhiteOpacity = 4096.0f;   // counts of an optical depth of 1
+RILL_CONST float kWhiteMaxPixels = 24.0f;   // largest radius of a dot
+
+RILL_RECORDS_END
+#endif
