@@ -17,6 +17,7 @@ build libcli11-dev            CLI11
 build libstb-dev              stb (stb_image.h, stb_image_write.h)
 build libtinyobjloader-dev    tinyobjloader 2.0 (tiny_obj_loader.h)
 build libtinygltf-dev         tinygltf 2.7 or newer (tiny_gltf.h)
+build libopenexr-dev          OpenEXR 3.1 or newer (rill-capture --exr; built without it where it is missing)
 build libglfw3-dev            GLFW 3.3 or newer
 build libimgui-dev            Dear ImGui 1.86 or newer
 run   libvulkan1              the Vulkan loader

@@ -19,6 +19,7 @@
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
+#include "shared/exr.hpp"
 #include "shared/mesh_file.hpp"
 #include "shared/message.hpp"
 #include "shared/pipeline_cache_folder.hpp"
@@ -206,10 +207,15 @@ class Capture {
   }
 
   Expected<void> writeFrame(uint32_t k, double time_s) {
-    if (rendersImages()) {
+    if (options_.exr) {
+      auto image = simulation_->renderLinear(options_.width, options_.height);
+      if (!image) return image.error();
+      if (auto written = apps::writeExr(folder_->frame(k, "exr"), *image); !written) return written;
+    }
+    if (options_.video || (options_.images && !options_.exr)) {
       auto image = simulation_->render(options_.view, options_.width, options_.height);
       if (!image) return image.error();
-      if (options_.images)
+      if (options_.images && !options_.exr)
         if (auto written = apps::writePng(folder_->frame(k, "png"), *image); !written) return written;
       if (video_)
         if (auto added = video_->add(*image); !added) return added;
@@ -294,7 +300,8 @@ class Capture {
     const bool particles = options_.exportPly || options_.exportVtk;
     if (!options_.quiet && (options_.images || particles || options_.exportMesh) && record_->frames() > 0) {
       const auto last = static_cast<uint32_t>(first_ + record_->frames() - 1);
-      const char* kind = options_.images       ? "png"
+      const char* kind = options_.exr          ? "exr"
+                         : options_.images     ? "png"
                          : options_.exportPly  ? "ply"
                          : options_.exportMesh ? apps::meshExtension(options_.meshFormat)
                                                : "vtu";

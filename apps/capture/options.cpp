@@ -12,6 +12,7 @@
 #include "rill/version.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/device_option.hpp"
+#include "shared/exr.hpp"
 #include "shared/option_text.hpp"
 #include "shared/pipeline_cache_folder.hpp"
 #include "shared/scene_folders.hpp"
@@ -32,7 +33,7 @@ struct Raw {
       exposure, graph, reads;
   std::vector<std::string> set, require, exportAs;
   std::string meshFormat, meshCell;
-  bool explain = false, noImages = false, noPassTimes = false, quiet = false;
+  bool explain = false, noImages = false, noPassTimes = false, quiet = false, exr = false;
 };
 
 /// True where both name the same file, which need not exist.
@@ -72,6 +73,9 @@ void declare(CLI::App& app, Raw& raw) {
   once("--orbit", raw.orbit, "rotate the camera about its target, in degrees per simulated second", "DEG_PER_S", written);
   once("--exposure", raw.exposure, "brighten the view final by EV stops, each twice the light (-10 to 10, default: 0)", "EV", written);
   once("--video", raw.video, "also write the images as a video (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
+  app.add_flag("--exr", raw.exr,
+               "write images of the view final as OpenEXR in linear light, before exposure and tone curve, in place of PNG")
+      ->group(written);
   app.add_flag("--no-images", raw.noImages, "write no image files; without --video render none")->group(written);
   list("--export", raw.exportAs,
        "write of each frame the particles (ply, those of whitewater as .whitewater.ply; vtk: .vtu and DIR/particles.pvd for ParaView), the "
@@ -172,6 +176,14 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
     if (options.view != "final")
       return Error{ErrorKind::BadInput, "--exposure: the view " + options.view + " has none; expected --view final"};
     options.exposure_stops = *stops;
+  }
+  if (raw.exr) {
+    if (!apps::writesExr())
+      return Error{ErrorKind::BadInput, "--exr: this rill-capture was built without OpenEXR; expected a build with it"};
+    if (options.view != "final")
+      return Error{ErrorKind::BadInput, "--exr: the view " + options.view + " is not linear light; expected --view final"};
+    if (raw.noImages) return Error{ErrorKind::BadInput, "--exr: not possible with --no-images; expected one of the two"};
+    options.exr = true;
   }
   if (given("--export")) {
     for (const std::string& format : raw.exportAs) {

@@ -44,6 +44,7 @@ struct Options {
   ArrayReads reads = ArrayReads::Auto;
   std::vector<Requirement> requirements;
   bool explain = false, images = true, quiet = false;
+  bool exr = false;       ///< images are linear OpenEXR files in place of PNG
   bool passTimes = true;  ///< for --stats and --explain
   std::string command;    ///< the command line, quoted for a shell
 };

@@ -15,6 +15,7 @@
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
+#include "shared/exr.hpp"
 #include "shared/message.hpp"
 #include "shared/pipeline_cache_folder.hpp"
 #include "shared/png.hpp"
@@ -120,10 +121,16 @@ int runPlayback(const Options& options) {
   uint64_t hits = 0;
   const auto frame = [&](uint32_t k) -> Expected<void> {
     if (auto shown = show(*player, (*files)[k], k / options.fps); !shown) return shown;
+    if (options.exr) {
+      auto image = player->renderLinear(options.width, options.height);
+      if (!image) return image.error();
+      hits += player->boundHits();
+      if (auto written = apps::writeExr(folder->frame(k, "exr"), *image); !written || !video) return written;
+    }
     auto image = player->render(options.view, options.width, options.height);
     if (!image) return image.error();
     hits += player->boundHits();
-    if (folder)
+    if (folder && !options.exr)
       if (auto written = apps::writePng(folder->frame(k, "png"), *image); !written) return written;
     return video ? video->add(*image) : Expected<void>();
   };
@@ -150,8 +157,9 @@ int runPlayback(const Options& options) {
       message(written.error().message);
       code = apps::kFailed;
     }
+  const char* kind = options.exr ? "exr" : "png";
   if (!options.quiet && folder && done > 0 && code == apps::kDone)
-    message("frames: " + folder->frame(0, "png").string() + (done > 1 ? " to " + folder->frame(done - 1, "png").filename().string() : ""));
+    message("frames: " + folder->frame(0, kind).string() + (done > 1 ? " to " + folder->frame(done - 1, kind).filename().string() : ""));
   if (!options.quiet && video && video->finished()) message("video: " + options.video->string());
   if (hits > 0 && !options.quiet) message(boundHitsWarning(hits));
   if (code != apps::kDone) return code;

@@ -41,6 +41,17 @@ const View* find(std::string_view name) {
   return found == std::end(kViews) ? nullptr : found;
 }
 
+/// The texels of an image of half floats, to be read back.
+BufferRef linearPixels(Graph& graph, ImageRef color, uint64_t pixels) {
+  BufferRef copied = graph.create("picture linear", {pixels * 4 * sizeof(uint16_t)});
+  graph.pass("picture linear", [&](Pass& pass) {
+    pass.read(color, Use::CopySource);
+    copied = pass.write(copied, Use::CopyTarget, true);
+    return [color, copied](Commands& commands) { commands.copy(color, copied); };
+  });
+  return copied;
+}
+
 }  // namespace
 
 uint64_t boundHits(const Graph& graph, const PictureTickets& tickets) {
@@ -130,14 +141,14 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
 }
 
 PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height,
-                                double time_s, const DrawnWhitewater& white) {
-  PictureTickets tickets{graph.readback(addTo(graph, fluid, view, camera(width, height, time_s), width, height, time_s, white)), {}};
+                                double time_s, PixelKind kind, const DrawnWhitewater& white) {
+  PictureTickets tickets{graph.readback(addTo(graph, fluid, view, camera(width, height, time_s), width, height, time_s, kind, white)), {}};
   if (find(view)->kind != Kind::Particles && fluid.capacity > 0) tickets.counters = graph.readback(implOf(*fluid_).last.counters);
   return tickets;
 }
 
 BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view name, const CameraView& eye, uint32_t width,
-                         uint32_t height, double time_s, const DrawnWhitewater& white) {
+                         uint32_t height, double time_s, PixelKind kind, const DrawnWhitewater& white) {
   const View& view = *find(name);
   if (view.kind == Kind::Particles) {
     ParticleViewDesc desc;
@@ -168,6 +179,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
                                  lookRecord(look_, renderer.last.push, renderer.environment.get()), behind, renderer.last.pixels,
                                  environment, white.size);
   if (fluid.capacity > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, time_s, renderer.last.pixels);
+  if (kind == PixelKind::Linear) return linearPixels(graph, targets.color, uint64_t{width} * height);
   return finish_.addTo(graph, targets.color, width, height, exposure_stops_);
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 // Rendering of a simulation: the views and their passes.
+#include <cstring>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "rill/fluid_renderer.hpp"
 #include "rill/offline.hpp"
@@ -22,6 +25,20 @@ struct PictureTickets {
 
 /// Number of times that shader loops of the picture reached their limit. The frame must have completed.
 uint64_t boundHits(const Graph& graph, const PictureTickets& tickets);
+
+/// Copies `count` numbers of a read-back picture. Failed if there are fewer.
+template <class T>
+Expected<void> readPixels(const Graph& graph, const PictureTickets& tickets, std::string_view view, size_t count, std::vector<T>& pixels) {
+  const auto bytes = graph.data(tickets.picture);
+  if (bytes.size() < count * sizeof(T))
+    return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": the read-back is incomplete"};
+  pixels.resize(count);
+  std::memcpy(pixels.data(), bytes.data(), count * sizeof(T));
+  return {};
+}
+
+/// RGBA8 as displayed, or half floats in linear light (of the view final).
+enum class PixelKind { Display, Linear };
 
 /// Whitewater of a picture, which the view "final" draws.
 struct DrawnWhitewater {
@@ -44,12 +61,12 @@ class Painter {
   static Expected<void> check(std::string_view view, uint32_t width, uint32_t height);
   /// Creates the device resources of a view. Errors as check(); BadInput for an unknown look or an invalid environment map.
   Expected<void> prepare(Device& device, std::string_view view, uint32_t width, uint32_t height);
-  /// Adds the passes of a picture seen from `eye`; prepare() must have succeeded. The result is RGBA8 in sRGB, top row first.
+  /// Adds the passes of a picture seen from `eye`; prepare() must have succeeded. The result is RGBA of `kind`, top row first.
   BufferRef addTo(Graph& graph, const FluidState& fluid, std::string_view view, const CameraView& eye, uint32_t width, uint32_t height,
-                  double time_s, const DrawnWhitewater& white = {});
+                  double time_s, PixelKind kind = PixelKind::Display, const DrawnWhitewater& white = {});
   /// The same from the scene's camera, with read-backs.
   PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s,
-                         const DrawnWhitewater& white = {});
+                         PixelKind kind = PixelKind::Display, const DrawnWhitewater& white = {});
   /// The color scale of a view; empty for views without one, or before prepare().
   std::optional<LegendDesc> legend(std::string_view view, double time_s) const;
   /// Draws the legend of a view into a finished picture, on the host.

@@ -74,26 +74,14 @@ class Player::Impl {
     return painter_.prepare(context_->device(), view, width, height);
   }
   Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
-    if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
-    graph_.reset();
-    FluidState fluid;
-    fluid.capacity = count_;
-    fluid.spacing = static_cast<float>(scene_.fluid.spacing);
-    fluid.origin = origin_;
-    if (count_ > 0) {
-      fluid.position = staged("played positions", position_);
-      fluid.velocity = staged("played velocities", velocity_);
-    }
-    const PictureTickets tickets = painter_.declare(graph_, fluid, view, width, height, time_s_);
-    if (auto ran = context_->run(graph_); !ran) return ran.error();
-    if (auto waited = context_->wait(); !waited) return waited.error();
-    Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
-    const auto bytes = graph_.data(tickets.picture);
-    if (bytes.size() < image.rgba.size())
-      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": the read-back is incomplete"};
-    std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
+    Image image{width, height, {}};
+    if (auto drawn = draw(view, image.rgba, width, height, PixelKind::Display); !drawn) return drawn.error();
     painter_.finish(image, view, time_s_);
-    boundHits_ = offline::boundHits(graph_, tickets);
+    return image;
+  }
+  Expected<LinearImage> renderLinear(uint32_t width, uint32_t height) {
+    LinearImage image{width, height, {}};
+    if (auto drawn = draw("final", image.rgba, width, height, PixelKind::Linear); !drawn) return drawn.error();
     return image;
   }
 
@@ -104,6 +92,26 @@ class Player::Impl {
   const Scene& scene() const { return scene_; }
 
  private:
+  template <class T>
+  Expected<void> draw(std::string_view view, std::vector<T>& rgba, uint32_t width, uint32_t height, PixelKind kind) {
+    if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
+    graph_.reset();
+    FluidState fluid;
+    fluid.capacity = count_;
+    fluid.spacing = static_cast<float>(scene_.fluid.spacing);
+    fluid.origin = origin_;
+    if (count_ > 0) {
+      fluid.position = staged("played positions", position_);
+      fluid.velocity = staged("played velocities", velocity_);
+    }
+    const PictureTickets tickets = painter_.declare(graph_, fluid, view, width, height, time_s_, kind);
+    if (auto ran = context_->run(graph_); !ran) return ran.error();
+    if (auto waited = context_->wait(); !waited) return waited.error();
+    if (auto read = readPixels(graph_, tickets, view, 4 * size_t{width} * height, rgba); !read) return read;
+    boundHits_ = offline::boundHits(graph_, tickets);
+    return {};
+  }
+
   /// A copy of the particles in the device's memory: passes read them many times.
   BufferRef staged(std::string_view name, const Buffer& buffer) {
     const BufferRef host = graph_.import("played particles", {buffer.handle(), 0, buffer.size(), Use::Nothing, Use::Nothing});
@@ -146,6 +154,10 @@ Expected<void> Player::show(const std::vector<Float3>& positions, const Double3&
 
 Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t height) try {
   return impl_->render(view, width, height);
+} catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
+
+Expected<LinearImage> Player::renderLinear(uint32_t width, uint32_t height) try {
+  return impl_->renderLinear(width, height);
 } catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
 
 std::string Player::pictureDot() const { return impl_->pictureDot(); }

@@ -230,24 +230,16 @@ class Simulation::Impl {
     return painter_.prepare(context_->device(), view, width, height);
   }
   Expected<Image> render(std::string_view view, uint32_t width, uint32_t height) {
-    if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
-    if (auto measured = measure(); !measured) return measured.error();
-    const double now = measured_->time_s;  // on the device, which is behind time() if time was dropped
-    PictureTickets tickets;
-    auto ran = run(renderGraph_, [&](Graph& graph) {
-      const FluidState state = fluid_->addTo(graph, {});
-      DrawnWhitewater white;
-      if (white_) white = {white_->addTo(graph, state, 0), std::cbrt(white_->desc().parcel_m3 * 3 / (4 * std::numbers::pi))};
-      tickets = painter_.declare(graph, state, view, width, height, now, white);
-    });
-    if (!ran) return ran.error();
-    const auto bytes = renderGraph_.data(tickets.picture);
-    Image image{width, height, std::vector<uint8_t>(4 * size_t{width} * height)};
-    if (bytes.size() < image.rgba.size())
-      return Error{ErrorKind::Failed, "drawing the view \"" + std::string(view) + "\": the read-back is incomplete"};
-    std::memcpy(image.rgba.data(), bytes.data(), image.rgba.size());
-    painter_.finish(image, view, now);
-    pictureBoundHits_ += boundHits(renderGraph_, tickets);
+    Image image{width, height, {}};
+    auto now = draw(view, image.rgba, width, height, PixelKind::Display);
+    if (!now) return now.error();
+    painter_.finish(image, view, *now);
+    return image;
+  }
+  Expected<LinearImage> renderLinear(uint32_t width, uint32_t height) {
+    LinearImage image{width, height, {}};
+    auto now = draw("final", image.rgba, width, height, PixelKind::Linear);
+    if (!now) return now.error();
     return image;
   }
 
@@ -279,6 +271,25 @@ class Simulation::Impl {
   }
 
  private:
+  /// Draws into `rgba`; the result is the time of the picture, s.
+  template <class T>
+  Expected<double> draw(std::string_view view, std::vector<T>& rgba, uint32_t width, uint32_t height, PixelKind kind) {
+    if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
+    if (auto measured = measure(); !measured) return measured.error();
+    const double now = measured_->time_s;  // on the device, which is behind time() if time was dropped
+    PictureTickets tickets;
+    auto ran = run(renderGraph_, [&](Graph& graph) {
+      const FluidState state = fluid_->addTo(graph, {});
+      DrawnWhitewater white;
+      if (white_) white = {white_->addTo(graph, state, 0), std::cbrt(white_->desc().parcel_m3 * 3 / (4 * std::numbers::pi))};
+      tickets = painter_.declare(graph, state, view, width, height, now, kind, white);
+    });
+    if (!ran) return ran.error();
+    if (auto read = readPixels(renderGraph_, tickets, view, 4 * size_t{width} * height, rgba); !read) return read.error();
+    pictureBoundHits_ += boundHits(renderGraph_, tickets);
+    return now;
+  }
+
   ProbeValue valueOf(const Probe& probe, const ProbeReader& reader) const {
     if (probe.level) return reader.level(probe.level->first, probe.level->second);
     if (probe.front) return reader.front(*probe.front);
@@ -582,6 +593,9 @@ Expected<Checkpoint> Simulation::checkpoint(uint64_t frame, double fps) {
 }
 Expected<Image> Simulation::render(const std::string& view, uint32_t width, uint32_t height) {
   return guarded("drawing", [&] { return impl_->render(view, width, height); });
+}
+Expected<LinearImage> Simulation::renderLinear(uint32_t width, uint32_t height) {
+  return guarded("drawing", [&] { return impl_->renderLinear(width, height); });
 }
 Expected<void> Simulation::prepareRender(const std::string& view, uint32_t width, uint32_t height) {
   return guarded("drawing", [&] { return impl_->prepareRender(view, width, height); });

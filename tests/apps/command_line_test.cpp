@@ -32,13 +32,35 @@ TEST(CommandLine, HelpListsOptionsAndExamples) {
     const Outcome outcome = capture({option});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
-    for (const char* word : {"SCENE",       "--frames",        "--fps",        "--size",
-                             "--out",       "--view",          "--stats",      "--export",
-                             "--particles", "--set",           "--device",     "--require",
-                             "--explain",   "--no-images",     "--quiet",      "--help",
-                             "--version",   "--no-pass-times", "--checkpoint", "--checkpoint-every",
-                             "--resume",    "--play",          "--orbit",      "--exposure",
-                             "--video",     "Examples:",       "Exit codes:",  "final, particles, density"})
+    for (const char* word : {"SCENE",
+                             "--frames",
+                             "--fps",
+                             "--size",
+                             "--out",
+                             "--view",
+                             "--stats",
+                             "--export",
+                             "--particles",
+                             "--set",
+                             "--device",
+                             "--require",
+                             "--explain",
+                             "--no-images",
+                             "--quiet",
+                             "--help",
+                             "--version",
+                             "--no-pass-times",
+                             "--checkpoint",
+                             "--checkpoint-every",
+                             "--resume",
+                             "--play",
+                             "--orbit",
+                             "--exposure",
+                             "--exr",
+                             "--video",
+                             "Examples:",
+                             "Exit codes:",
+                             "final, particles, density"})
       EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
 }

@@ -334,6 +334,17 @@ TEST(Simulation, ExposureBrightensFinalPicturesOnly) {
   EXPECT_LT(sumOf(-1, "final"), sumOf(0, "final"));
   EXPECT_LT(sumOf(0, "final"), sumOf(1, "final"));
   EXPECT_EQ(sumOf(0, "depth"), sumOf(1, "depth"));
+  const auto linear = [](double stops) {
+    auto simulation = open({.exposure_stops = stops});
+    const auto image = simulation->renderLinear(64, 36);
+    EXPECT_TRUE(image) << image.error().message;
+    return image->rgba;
+  };
+  const std::vector<uint16_t> halves = linear(0);
+  ASSERT_EQ(halves.size(), 4u * 64 * 36);
+  for (size_t k = 3; k < halves.size(); k += 4) ASSERT_EQ(halves[k], 0x3C00) << "alpha is 1";
+  EXPECT_GT(std::ranges::count_if(halves, [](uint16_t half) { return half > 0x2000 && half < 0x3C00; }), 64 * 36) << "light up to 1";
+  EXPECT_EQ(linear(2), halves) << "before exposure";
   for (const double bad : {10.5, -11.0, double(NAN)}) {
     const auto refused = Simulation::open(dam(), {.exposure_stops = bad});
     ASSERT_FALSE(refused);

@@ -80,6 +80,12 @@ struct Image {
   std::vector<uint8_t> rgba = {};
 };
 
+/// An image in linear light, before exposure and tone curve: RGBA of IEEE half floats (binary16), top row first. Not antialiased.
+struct LinearImage {
+  uint32_t width = 0, height = 0;
+  std::vector<uint16_t> rgba = {};
+};
+
 /// Executions and time of a pass.
 struct PassTime {
   std::string name = {};
@@ -202,6 +208,8 @@ class Simulation {
   Expected<Checkpoint> checkpoint(uint64_t frame = 0, double fps = 0);
   /// Renders the current time. `view`: one of views(). `width`, `height`: pixels. BadInput for another view or an unsupported size.
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
+  /// The view `final` in linear light. Errors as render().
+  Expected<LinearImage> renderLinear(uint32_t width, uint32_t height);
   /// Creates what render() needs, so that its BadInput errors, such as an invalid environment map, are found early. Optional.
   Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);
   static std::span<const std::string_view> views();  ///< names of the views
@@ -241,6 +249,7 @@ class Player {
                       double time_s = 0);
   /// As Simulation::render(). Without fluid before the first show().
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
+  Expected<LinearImage> renderLinear(uint32_t width, uint32_t height);                     ///< as Simulation::renderLinear()
   Expected<void> prepareRender(const std::string& view, uint32_t width, uint32_t height);  ///< as Simulation::prepareRender()
   std::string pictureDot() const;                                                          ///< Graphviz graph of the last picture
   uint64_t boundHits() const;                                                              ///< Stats::pictureBoundHits of the last picture
