@@ -91,6 +91,7 @@ std::vector<Feature> features() {
       {"poly6 and spiky", {{"solver.kernel", "poly6_spiky"}}, {{"solver.kernel", "wendland"}}},
       {"grid, no list", {{"solver.neighbors", "grid"}}, {{"solver.neighbors", "list"}}},
       {"gravity changes", {{"gravity_changes", R"([{"at": 0.02, "value": [3, -9.81, 0]}])"}}, {{"gravity_changes", "[]"}}},
+      {"whitewater", {{"rill", "\"0.2\""}, {"look.whitewater", "true"}}, {{"rill", "\"0.2\""}, {"look.whitewater", "false"}}},
       {.name = "pass times", .on = {}, .passTimes = true},
       {.name = "figures", .on = {}, .measuresFigures = true},
   };
