@@ -13,7 +13,7 @@
 namespace rill::model {
 
 inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+y", "-z", "+z"};  // bits of SideMask
-inline constexpr std::array<std::string_view, 4> kPresetWords{"water", "milk", "ink", "clay"};
+inline constexpr std::array<std::string_view, 5> kPresetWords{"water", "milk", "ink", "clay", "pool"};
 inline constexpr std::array<std::string_view, 3> kSkyWords{"studio", "day", "sunset"};
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 

@@ -6,7 +6,7 @@
 namespace rill {
 namespace {
 
-constexpr std::string_view kNames[] = {"water", "milk", "ink", "clay"};
+constexpr std::string_view kNames[] = {"water", "milk", "ink", "clay", "pool"};
 
 }  // namespace
 
@@ -45,6 +45,11 @@ std::optional<FluidLook> fluidLook(std::string_view preset) {
     look.highlight = 12;
     look.aeration = 0;
     look.sun = 1;
+    return look;
+  }
+  if (preset == kNames[4]) {                       // pure water at 610, 550 and 465 nm
+    look.absorption = {0.264f, 0.0565f, 0.0101f};  // Pope and Fry 1997
+    look.scatter = {0.0008f, 0.0056f, 0.062f};     // 0.33 times backscattering (Morel 1974) over absorption: Morel and Prieur 1977
     return look;
   }
   return std::nullopt;

@@ -335,9 +335,10 @@ TEST(Simulation, ExposureBrightensFinalPicturesOnly) {
   EXPECT_LT(sumOf(0, "final"), sumOf(1, "final"));
   EXPECT_EQ(sumOf(0, "depth"), sumOf(1, "depth"));
   const auto linear = [](double stops) {
-    auto simulation = open({.exposure_stops = stops});
+    auto simulation = open({.exposure_stops = stops, .validation = true});
     const auto image = simulation->renderLinear(64, 36);
     EXPECT_TRUE(image) << image.error().message;
+    EXPECT_TRUE(simulation->takeValidationMessages().empty());
     return image->rgba;
   };
   const std::vector<uint16_t> halves = linear(0);

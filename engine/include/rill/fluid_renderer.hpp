@@ -78,7 +78,7 @@ struct FluidLook {
   float aeration = 0.3f;                  ///< strength of whitewater (spray and breaking crests), 0 (none) to 1; ignored if opaque
 };
 
-/// The preset of a scene's `look.preset`: water, milk, ink or clay. Empty for another name.
+/// The preset of a scene's `look.preset`: water, milk, ink, clay or pool. Empty for another name.
 RILL_API std::optional<FluidLook> fluidLook(std::string_view preset);
 /// The method of a scene's `look.surface`. Empty for another name.
 RILL_API std::optional<SurfaceMethod> surfaceMethod(std::string_view name);

@@ -236,7 +236,7 @@ struct Camera {
 
 /// Appearance of rendered pictures.
 struct Look {
-  std::string preset = "water";            ///< water, milk, ink or clay
+  std::string preset = "water";            ///< water, milk, ink, clay or pool
   std::string surface = "auto";            ///< surface reconstruction: auto, planes, curvature_flow or narrow_range
   std::string sky = "studio";              ///< studio, day or sunset; not used where there is an environment map
   std::filesystem::path environment = {};  ///< environment map; an absolute path once the scene is loaded; empty: the sky
