@@ -7,7 +7,7 @@ RILL_RECORDS_BEGIN
 RILL_CONST uint kWhiteGroup = 64u;             // invocations of a workgroup
 RILL_CONST float kWhiteSupport = 2.0f;         // radius of the kernel, spacings
 RILL_CONST uint kWhiteMaxVisits = 4096u;       // particles that one sum looks at
-RILL_CONST uint kWhiteMaxBirths = 1024u;         // of one fluid particle in one step
+RILL_CONST uint kWhiteMaxBirths = 1024u;       // of one fluid particle in one step
 RILL_CONST uint kWhiteNone = 0xffffffffu;      // no bin
 RILL_CONST float kWhiteFar = 1048576.0f;       // cells from the origin beyond which particles are left out
 
