@@ -37,7 +37,7 @@ vec3 backdrop(vec3 sight) {
 vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
 #else
 // Darker than the sky that is reflected, so that reflections are seen against it.
-vec3 backdrop(vec3 sight) { return mix(vec3(0.085, 0.115, 0.155), vec3(0.015, 0.024, 0.045), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 backdrop(vec3 sight) { return mix(vec3(0.06, 0.08, 0.11), vec3(0.010, 0.016, 0.030), sqrt(clamp(sight.y, 0.0, 1.0))); }
 vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z))); }
 #endif
 
@@ -62,7 +62,7 @@ void main() {
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
   const bool inside = all(equal(beyond, vec2(0.0)));
-  vec3 albedo = vec3(0.17, 0.19, 0.215);
+  vec3 albedo = vec3(0.115, 0.13, 0.15);
   if (inside) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
   const vec3 direct = sunlight() * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);

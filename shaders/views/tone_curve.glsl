@@ -3,7 +3,7 @@
 
 const float kInset = 0.2;  // of the way from a primary to white
 const vec3 kInsetWeights = vec3(0.2119946, 0.3921508, 0.3958546);  // of sRGB's primaries, each as far from white as the others
-const float kMiddleGray = 0.18;
+const float kMiddleGray = 0.18 / 1.4142136;  // half a stop brighter, so that 0.18 is shown as sRGB shows it
 const float kStopsBelow = 10.0, kStopsAbove = 6.5;  // of middle gray: black and white
 const float kSaturation = 1.4;
 const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);

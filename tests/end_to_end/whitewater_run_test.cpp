@@ -102,7 +102,7 @@ TEST(WhitewaterRun, IsDrawnInTheFinalView) {
     for (size_t k = 0; k < image->rgba.size(); k += 4) white += image->rgba[k] > 170 ? 1 : 0;
     return white;
   };
-  EXPECT_GT(whitePixels(true), whitePixels(false) + 50);
+  EXPECT_GT(whitePixels(true), whitePixels(false) + 100);
 }
 
 }  // namespace whitewater_run_test

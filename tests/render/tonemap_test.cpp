@@ -45,7 +45,7 @@ Matrix toXyz(double inset) {
   return columns;
 }
 
-// AgX of T. Sobotka (2022): 10 stops below and 6.5 above middle gray, slope 2 there, powers 3 of the toe and 3.25 of the shoulder. The
+// AgX of T. Sobotka (2022), half a stop brighter: 10 stops below and 6.5 above middle gray, slope 2 there, powers 3 of the toe and 3.25 of the shoulder. The
 // curve is x / (1 + x^p)^(1/p), scaled so that it passes through the corners and the pivot. Look "Punchy": power 1.35, saturation 1.4.
 Light agx(const Light& color) {
   Matrix inset{};
@@ -56,7 +56,7 @@ Light agx(const Light& color) {
   }
   Light light = times(inset, color);
   for (double& c : light) {
-    const double pivot = 10 / 16.5, x = std::clamp((std::log2(std::max(c, 1e-10) / 0.18) + 10) / 16.5, 0.0, 1.0);
+    const double pivot = 10 / 16.5, x = std::clamp((std::log2(std::max(c, 1e-10) / 0.18) + 0.5 + 10) / 16.5, 0.0, 1.0);
     const bool toe = x < pivot;
     const double power = toe ? 3 : 3.25, width = toe ? pivot : 1 - pivot;
     const double scale = std::pow(std::pow(0.5, -power) - std::pow(2 * width, -power), -1 / power);
