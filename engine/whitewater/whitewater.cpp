@@ -33,13 +33,14 @@ Expected<void> checkWhitewater(const WhitewaterDesc& desc) {
     if (value < 1 || value > kMaxWhitewater)
       return whiteError(ErrorKind::BadInput,
                         std::string(name) + " is " + grouped(value) + "; expected 1 to " + grouped(kMaxWhitewater) + " particles");
-  if (auto ok = number("parcel_m3", desc.parcel_m3, desc.parcel_m3 > 0, "a volume above 0 (m^3)"); !ok) return ok;
-  if (auto ok = number("trapping", desc.trapping, desc.trapping >= 0, "at least 0"); !ok) return ok;
-  if (auto ok = number("breaking", desc.breaking, desc.breaking >= 0, "at least 0"); !ok) return ok;
-  if (auto ok = number("life_s", desc.life_s, desc.life_s > 0, "a time above 0 (s)"); !ok) return ok;
+  if (auto ok = number("parcel_m3", desc.parcel_m3, desc.parcel_m3 >= 1e-30 && desc.parcel_m3 <= 1e30, "1e-30 to 1e30 (m^3)"); !ok)
+    return ok;
+  if (auto ok = number("trapping", desc.trapping, desc.trapping >= 0 && desc.trapping <= 1e6, "0 to 1e6"); !ok) return ok;
+  if (auto ok = number("breaking", desc.breaking, desc.breaking >= 0 && desc.breaking <= 1e6, "0 to 1e6"); !ok) return ok;
+  if (auto ok = number("life_s", desc.life_s, desc.life_s >= 1e-6 && desc.life_s <= 1e9, "1e-6 to 1e9 (s)"); !ok) return ok;
   for (size_t a = 0; a < 3; ++a)
     for (const auto& [name, vector] : {std::pair{"gravity", desc.gravity}, {"origin", desc.origin}})
-      if (auto ok = number(name, vector[a], true, "finite numbers"); !ok) return ok;
+      if (auto ok = number(name, vector[a], std::abs(vector[a]) <= 1e30, "numbers of at most 1e30"); !ok) return ok;
   if (!desc.snapshot) return {};
   const WhitewaterSnapshot& s = *desc.snapshot;
   const size_t count = s.place.size();
@@ -272,12 +273,17 @@ WhitewaterState Whitewater::addTo(Graph& graph, const FluidState& fluid, double 
                                                 grouped(impl_->desc.capacity) + ", the whitewater's capacity");
   if (valid && fluid.capacity > 0 && fluid.velocity == BufferRef{})
     valid = whiteError(ErrorKind::BadInput, "FluidState::velocity is null; expected the velocities of the fluid");
+  const auto& resources = implOf(graph).resources;
+  const uint32_t velocity = fluid.velocity.index;
+  if (valid && fluid.capacity > 0 && velocity < resources.size() && resources[velocity].size < uint64_t{fluid.capacity} * 16)
+    valid = whiteError(ErrorKind::BadInput, "FluidState::velocity has " + grouped(resources[velocity].size) +
+                                                " bytes; expected 16 for each of its " + grouped(fluid.capacity) + " particles");
   if (valid && !(seconds >= 0 && seconds <= 1e6))
     valid = whiteError(ErrorKind::BadInput, "the step is " + shortestNumber(seconds) + "; expected 0 to 1e6 (s)");
   const Double3 pull = gravity.value_or(impl_->desc.gravity);
   for (const double a : pull)
-    if (valid && !std::isfinite(a))
-      valid = whiteError(ErrorKind::BadInput, "gravity is " + shortestNumber(a) + "; expected finite numbers (m/s^2)");
+    if (valid && !(std::abs(a) <= 1e30))
+      valid = whiteError(ErrorKind::BadInput, "gravity is " + shortestNumber(a) + "; expected numbers of at most 1e30 (m/s^2)");
   if (!valid) {
     implOf(graph).fail(valid.error().message);
     return {};

@@ -19,9 +19,9 @@ float bend = 0.0, squares = 0.0;
 
 // Of a ball (n_j - n_i) . (x_j - x_i) is the squared distance over its radius
 void visit(uint slot, vec3 to, float square) {
-  const vec4 there = surfaceAt(slot);
-  const float weight = kernelAt(square) * there.w;
-  bend += weight * dot(there.xyz - normal, to);
+  const vec4 neighbor = surfaceAt(slot);
+  const float weight = kernelAt(square) * neighbor.w;
+  bend += weight * dot(neighbor.xyz - normal, to);
   squares += weight * dot(to, to);
 }
 
@@ -41,8 +41,8 @@ void main() {
     const float curvature = clamp(bend / max(squares, 1e-12 * area), 0.0, 1.0 / white.spacing);
     flow += white.breaking * own.w * area * outward * brokenUp(outward * outward * curvature);
   }
-  const float expected = min(energy * flow / white.parcel * white.seconds, 1e6);
+  const float expected = min(energy * flow / white.parcel * white.seconds, 2147483648.0 / float(white.capacity));
   const uint wanted = uint(expected + unit(whiteHash(white.seed, slot, counts[kWhiteSteps], kWhiteNone)));
-  births[slot] = min(wanted, kWhiteMaxBirths);
-  if (wanted > kWhiteMaxBirths) atomicAdd(counts[kWhiteLost], wanted - kWhiteMaxBirths);
+  births[slot] = min(wanted, mostBirths());
+  if (wanted > mostBirths()) atomicAdd(counts[kWhiteLost], wanted - mostBirths());
 }

@@ -24,7 +24,7 @@ vec3 inBall(uint hash, uint first) {
 void main() {
   const uint slot = flatInvocation();
   if (slot >= start[white.bins]) return;
-  const uint from = births[slot], count = min(births[slot + 1u] - from, kWhiteMaxBirths), first = alive[white.room] + from;
+  const uint from = births[slot], count = min(births[slot + 1u] - from, mostBirths()), first = alive[white.room] + from;
   const vec3 x = uintBitsToFloat(place[slot].xyz), v = motion[slot].xyz;
   // A particle with much surface starts as spray if it moves outward, else as foam; deep ones as bubbles.
   const bool deep = surface[slot].w < 0.2;

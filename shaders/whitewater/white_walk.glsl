@@ -23,10 +23,10 @@ bool walk(vec3 x) {
       const uint end = slot + min(startAt(high + 1u) - slot, left);
       left -= end - slot;
       LOOP_WHILE (slot < end) {
-        const uvec4 there = placeAt(slot);
-        const vec3 off = uintBitsToFloat(there.xyz) - x;
+        const uvec4 neighbor = placeAt(slot);
+        const vec3 off = uintBitsToFloat(neighbor.xyz) - x;
         const float square = dot(off, off) * inverse;
-        if (square < 1.0 && there.w == column) visit(slot, off, square);
+        if (square < 1.0 && neighbor.w == column) visit(slot, off, square);
         ++slot;
       } LOOP_END(slot < end);
       ++part;

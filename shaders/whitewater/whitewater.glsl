@@ -8,6 +8,9 @@
 
 layout(push_constant) uniform PushBlock { WhitePush white; };
 
+// Of one fluid particle in one step; 32 bits hold the sum of all.
+uint mostBirths() { return min(kWhiteMaxBirths, 0x80000000u / max(white.capacity, 1u)); }
+
 float support() { return kWhiteSupport * white.spacing; }
 vec3 gravity() { return vec3(white.gravityX, white.gravityY, white.gravityZ); }
 vec3 domainLow() { return vec3(white.lowX, white.lowY, white.lowZ); }

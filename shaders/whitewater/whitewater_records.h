@@ -13,7 +13,7 @@ RILL_CONST float kWhiteFar = 1048576.0f;       // cells from the origin beyond w
 
 // Emission. The specific kinetic energy from which on water entrains air, that of 1 m/s (Chanson 1996), and that of whole rates.
 RILL_CONST float kWhiteEnergyLow = 0.5f, kWhiteEnergyHigh = 4.5f;  // J/kg
-RILL_CONST float kWhiteSlow = 0.5f;            // (m/s)^2, of the squared speed; slower fluid takes no part, nor as a neighbor
+RILL_CONST float kWhiteSlow = 0.5f;            // (m/s)^2, of the squared speed; slower fluid does not emit
 RILL_CONST float kWhiteInertiaLow = 2.0f, kWhiteInertiaHigh = 4.0f;  // acceleration of the flow over gravity, from smooth to broken up
 RILL_CONST float kWhiteCrestCosine = 0.6f;     // between velocity and normal, above which a crest breaks (Ihmsen et al. 2012)
 RILL_CONST float kWhiteSpread = 0.1f;          // random part of a new particle's velocity, of its speed

@@ -382,15 +382,19 @@ TEST_F(WhitewaterTest, RejectsValuesOutOfRange) {
   EXPECT_EQ(message(good), "");
   EXPECT_EQ(message({.parcel_m3 = 1}), "whitewater: capacity is 0; expected 1 to 4,194,304 particles");
   EXPECT_EQ(message({.capacity = 10, .room = 0, .parcel_m3 = 1}), "whitewater: room is 0; expected 1 to 4,194,304 particles");
-  EXPECT_EQ(message({.capacity = 10}), "whitewater: parcel_m3 is 0; expected a volume above 0 (m^3)");
-  EXPECT_EQ(message({.capacity = 10, .parcel_m3 = 1, .trapping = -1}), "whitewater: trapping is -1; expected at least 0");
-  EXPECT_EQ(message({.capacity = 10, .parcel_m3 = 1, .life_s = 0}), "whitewater: life_s is 0; expected a time above 0 (s)");
+  EXPECT_EQ(message({.capacity = 10}), "whitewater: parcel_m3 is 0; expected 1e-30 to 1e30 (m^3)");
+  EXPECT_EQ(message({.capacity = 10, .parcel_m3 = 1, .trapping = -1}), "whitewater: trapping is -1; expected 0 to 1e6");
+  EXPECT_EQ(message({.capacity = 10, .parcel_m3 = 1, .life_s = 0}), "whitewater: life_s is 0; expected 1e-6 to 1e9 (s)");
+  EXPECT_EQ(message({.capacity = 10, .parcel_m3 = 1e-46}), "whitewater: parcel_m3 is 1e-46; expected 1e-30 to 1e30 (m^3)")
+      << "0 as a float";
+  EXPECT_EQ(message({.capacity = 10, .parcel_m3 = 1, .gravity = {0, 1e39, 0}}),
+            "whitewater: gravity is 1e+39; expected numbers of at most 1e30");
   const WhitewaterSnapshot torn{.place = std::vector<Float4>(3)};
   EXPECT_EQ(message({.capacity = 10, .parcel_m3 = 1, .snapshot = &torn}), "whitewater: the snapshot of 3 particles does not fit");
 }
 
 TEST_F(WhitewaterTest, CompileReportsInvalidSteps) {
-  const Buffer four = upload("position", std::vector<Float4>(4));
+  const Buffer four = upload("position", std::vector<Float4>(4)), two = upload("velocity", std::vector<Float4>(2));
   const auto message = [&](uint32_t capacity, bool moves, double seconds, std::optional<Double3> gravity = {}) {
     Whitewater white = create({.capacity = 3, .parcel_m3 = 1});
     Graph graph;
@@ -405,6 +409,17 @@ TEST_F(WhitewaterTest, CompileReportsInvalidSteps) {
   };
   EXPECT_NE(message(4, true, 0.1).find("FluidState::capacity is 4; expected at most 3"), std::string::npos);
   EXPECT_NE(message(3, false, 0.1).find("FluidState::velocity is null"), std::string::npos);
+  Whitewater white = create({.capacity = 3, .parcel_m3 = 1});
+  Graph graph;
+  FluidState narrow;
+  narrow.capacity = 3;
+  narrow.spacing = 1;
+  narrow.position = graph.import("position", importOf(four));
+  narrow.velocity = graph.import("velocity", importOf(two));
+  (void)white.addTo(graph, narrow, 0.1);
+  const auto compiled = graph.compile();
+  ASSERT_FALSE(compiled);
+  EXPECT_NE(compiled.error().message.find("FluidState::velocity has 32 bytes"), std::string::npos) << compiled.error().message;
   EXPECT_NE(message(3, true, -1).find("the step is -1; expected 0 to 1e6 (s)"), std::string::npos);
   EXPECT_NE(message(3, true, std::numeric_limits<double>::quiet_NaN()).find("the step is"), std::string::npos);
   EXPECT_NE(message(3, true, 0.1, Double3{0, std::numeric_limits<double>::infinity(), 0}).find("gravity is"), std::string::npos);

@@ -6,7 +6,7 @@
 //   const rill::WhitewaterState foam = white->addTo(graph, state, 1.0 / 60);  // once a frame, after the fluid's step
 //
 // Fluid in motion emits them where it traps air and where crests break. How many a second depends on the flow, and not on time steps,
-// frames or the spacing: docs/notes/whitewater.md. The fluid does not depend on them.
+// frames or, for one flow, the spacing: docs/notes/whitewater.md. The fluid does not depend on them.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -53,10 +53,10 @@ struct WhitewaterSnapshot {
 struct WhitewaterDesc {
   uint32_t capacity = 0;                         ///< fluid particles at most, 1 to 2^22
   uint32_t room = 200'000;                       ///< diffuse particles at most, 1 to 2^22
-  double parcel_m3 = 0;                          ///< volume of air, or of drops, that a diffuse particle stands for, above 0
-  double trapping = 0.02;                        ///< volume of air that shear traps, of the fluid's volume times its strain rate; >= 0
-  double breaking = 0.05;                        ///< volume of drops from breaking crests, of their area times their speed; >= 0
-  double life_s = 2.5;                           ///< mean life of foam, above 0; that of fresh water (Monahan and Zietlow 1969)
+  double parcel_m3 = 0;                          ///< volume of air, or of drops, that a diffuse particle stands for, 1e-30 to 1e30
+  double trapping = 0.02;                        ///< volume of air that shear traps, of the fluid's volume times its strain rate; 0 to 1e6
+  double breaking = 0.05;                        ///< volume of drops from breaking crests, of their area times their speed; 0 to 1e6
+  double life_s = 2.5;                           ///< mean life of foam, 1e-6 to 1e9; that of fresh water (Monahan and Zietlow 1969)
   Double3 gravity = {0, -9.81, 0};               ///< m/s^2, until addTo() is given another
   std::optional<Domain> domain = {};             ///< its closed sides hold diffuse particles back
   Double3 origin = {0, 0, 0};                    ///< FluidState::origin, for the domain
