@@ -78,8 +78,8 @@ Json jsonOf(const FluidLedger& l, uint64_t active) {
 }
 
 Json jsonOf(const WhitewaterStats& w) {
-  return {{"spray", w.spray},     {"foam", w.foam},           {"bubbles", w.bubbles},
-          {"emitted", w.emitted}, {"dissolved", w.dissolved}, {"overflow", w.overflow}};
+  return {{"spray", w.spray},         {"foam", w.foam},         {"bubbles", w.bubbles},     {"emitted", w.emitted},
+          {"dissolved", w.dissolved}, {"overflow", w.overflow}, {"bound_hits", w.boundHits}};
 }
 
 Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
@@ -307,6 +307,9 @@ std::vector<std::string> Record::warnings() const {
   if (last.whitewater && last.whitewater->overflow > 0)
     warnings.push_back("warning: whitewater is incomplete: there was no room for " + grouped(last.whitewater->overflow) +
                        " of its particles");
+  if (last.whitewater && last.whitewater->boundHits > 0)
+    warnings.push_back("warning: " + grouped(last.whitewater->boundHits) +
+                       " sums of whitewater over particles were cut off: too many lie at one place");
   if (const uint64_t hits = pictureBoundHits(); hits > 0) warnings.push_back(boundHitsWarning(hits));
   return warnings;
 }

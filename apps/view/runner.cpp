@@ -311,6 +311,8 @@ Expected<std::vector<Float3>> Runner::positions() {
 std::vector<std::string> Runner::warnings() const {
   std::vector<std::string> all = start_->warnings;
   all.insert(all.end(), fluid_->warnings().begin(), fluid_->warnings().end());
+  if (scene_.look.whitewater)
+    all.push_back("look.whitewater: the viewer draws drops and thin sheets white instead; rill-capture simulates it");
   return all;
 }
 

@@ -118,7 +118,13 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     if (!made) return made.error();
     fluid_ = std::move(*made);
   }
-  if (view->kind != Kind::Final || scenery_) return {};
+  if (view->kind != Kind::Final) return {};
+  const uint64_t dots = uint64_t{width} * height * WhitewaterView::kPixelBytes, most = device.info().maxBufferBytes;
+  if (scene_.look.whitewater && dots > most)
+    return Error{ErrorKind::TooLarge, "look.whitewater: a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                                          " pixels needs a buffer of " + bytesText(dots) + "; expected at most " + bytesText(most) +
+                                          " on this device"};
+  if (scenery_) return {};
   if (!scene_.look.environment.empty()) {
     const auto picture = loadEnvironment(scene_.look.environment);
     if (!picture) return environmentError(picture.error());
@@ -130,13 +136,14 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   if (!scenery) return scenery.error();
   auto finish = Finish::create(device);
   if (!finish) return finish.error();
+  if (scene_.look.whitewater) {
+    auto white = WhitewaterView::create(device, {}, implOf(*fluid_).environment != nullptr);
+    if (!white) return white.error();
+    whitewater_ = *white;
+  }
   finish_ = *finish;
   scenery_ = std::move(*scenery);
   look_.toSun = scenery_->toSun();
-  if (!scene_.look.whitewater) return {};
-  auto white = WhitewaterView::create(device, {}, implOf(*fluid_).environment != nullptr);
-  if (!white) return white.error();
-  whitewater_ = *white;
   return {};
 }
 

@@ -381,6 +381,8 @@ class Simulation::Impl {
     compare("device", from.device, device().name);
     compare("driver", from.driver, device().driver);
     compare("Rill", from.rill, RILL_VERSION);
+    if (!scene_.look.whitewater && !from.whitewater.counts.empty())
+      warnings_.push_back("look.whitewater is false: the whitewater of the checkpoint is left out");
     if (from.fluid.loads.empty() && std::ranges::any_of(scene_.probes, [](const Probe& probe) { return !probe.load.empty(); }))
       warnings_.push_back("the checkpoint has no loads on solids: those of the first frame lack a part of its first substep");
   }

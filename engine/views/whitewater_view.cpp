@@ -4,7 +4,6 @@
 #include "graph/shader_pass.hpp"
 #include "render/look_record.hpp"
 #include "sort/dispatches.hpp"
-#include "views/whitewater_view_records.h"
 
 namespace rill {
 
@@ -45,7 +44,7 @@ SceneTargets WhitewaterView::addTo(Graph& graph, const WhitewaterState& white, S
     float size;
   };
   const BufferRef record = addLook(graph, look);
-  BufferRef dots = graph.create("whitewater dots", {uint64_t{view.width} * view.height * kWhiteLayers * 4});
+  BufferRef dots = graph.create("whitewater dots", {uint64_t{view.width} * view.height * kPixelBytes});
   addFill(graph, "whitewater dots clear", {{&dots, 0}});
   addDispatch(graph, "whitewater splat", splat_, divideUp(white.room, kWhiteSplatGroup), SplatPush{view, static_cast<float>(size)},
               {{"look", record},

@@ -5,11 +5,14 @@
 #include "render/surface_records.h"
 #include "rill/fluid_renderer.hpp"
 #include "rill/whitewater.hpp"
+#include "views/whitewater_view_records.h"
 
 namespace rill {
 
 class WhitewaterView {
  public:
+  static constexpr uint64_t kPixelBytes = kWhiteLayers * 4;  ///< of the largest buffer of a picture
+
   /// `environment`: the sky is one of FluidRenderer::setEnvironment(). The device must have the shaders of engine/views.
   static Expected<WhitewaterView> create(Device& device, const TargetFormats& formats, bool environment);
 

@@ -10,7 +10,6 @@ layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
 layout(std430, set = 0, binding = 1) readonly buffer Dots { uint dots[]; };
 layout(location = 0) out vec4 color;
 
-const vec3 kSunlight = vec3(1.0, 0.95, 0.88);
 const float kAlbedo = 0.85;
 const float kUnderwater = 0.7;  // of the light enters the water and leaves it again
 
@@ -32,8 +31,8 @@ void main() {
   const vec3 normal = normalize(vec3(-slope.x, slope.y, -0.8));
   const float facing = 0.5 + 0.5 * dot(worldDirection(normal), look.light.xyz);
   const vec3 above = skyLight(vec3(0.0, 1.0, 0.0));
-  const vec3 white = kAlbedo * (above + kSunlight * (0.25 + 0.6 * facing));
-  const vec3 dim = kUnderwater * kAlbedo * (above + 0.6 * kSunlight);
+  const vec3 white = kAlbedo * (above + sunlight() * (0.25 + 0.6 * facing));
+  const vec3 dim = kUnderwater * kAlbedo * (above + 0.6 * sunlight());
   const float covered = (under.r + under.g + under.b) / 3.0;
   color = vec4(dim * under * (1.0 - front) + white * front, covered * (1.0 - front) + front);
 }

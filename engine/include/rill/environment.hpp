@@ -37,8 +37,8 @@ struct EnvironmentSun {
   float radius = 0;           ///< of a uniform disc with the same solid angle, rad
 };
 
-/// The sun of a picture: its brightest spot, if that is at most 10 degrees from its center to its rim, and lights the ground by a tenth of
-/// what the sky does or more. Empty for an overcast sky, for pictures in sRGB, whose sun is clipped, and for an invalid picture.
+/// The sun of a picture: its brightest spot, if that is at most 10 degrees from its center to its rim and sends at least a tenth of the
+/// sky's light. Empty for an overcast sky, for most pictures in sRGB, whose sun is clipped, and for an invalid picture.
 RILL_API std::optional<EnvironmentSun> findSun(const EnvironmentPicture& picture);
 
 /// A scene's `look.sky` as an environment: day or sunset, clear skies of Preetham, Shirley and Smits (1999) with the sun's disc. White
