@@ -49,7 +49,7 @@ std::optional<FluidLook> fluidLook(std::string_view preset) {
   }
   if (preset == kNames[4]) {                       // pure water at 610, 550 and 465 nm
     look.absorption = {0.264f, 0.0565f, 0.0101f};  // Pope and Fry 1997
-    look.scatter = {0.0008f, 0.0056f, 0.062f};     // 0.33 times backscattering (Morel 1974) over absorption: Morel and Prieur 1977
+    look.scatter = {0.0006f, 0.0043f, 0.050f};     // 0.33 times backscattering (Morel 1974) over absorption: Morel and Prieur 1977
     return look;
   }
   return std::nullopt;
