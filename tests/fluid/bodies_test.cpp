@@ -160,7 +160,7 @@ TEST_F(BodiesTest, ConserveMomentumWithFluid) {
     run->substeps(60);
     const auto [fluidAfter, solidAfter] = momenta();
     EXPECT_GT(glm::length(fluidAfter - fluid), 0.1 * m.mass * 3);
-    EXPECT_LT(glm::length((fluidAfter - fluid) + (solidAfter - solid)), 5e-4 * glm::length(solidAfter - solid))
+    EXPECT_LT(glm::length((fluidAfter - fluid) + (solidAfter - solid)), (iterations == 1 ? 2.5e-4 : 5e-4) * glm::length(solidAfter - solid))
         << "rounding: 4e-5 to 2e-4, by driver";
   }
 }
