@@ -45,8 +45,9 @@ Matrix toXyz(double inset) {
   return columns;
 }
 
-// AgX of T. Sobotka (2022), half a stop brighter: 10 stops below and 6.5 above middle gray, slope 2 there, powers 3 of the toe and 3.25 of the shoulder. The
-// curve is x / (1 + x^p)^(1/p), scaled so that it passes through the corners and the pivot. Look "Punchy": power 1.35, saturation 1.4.
+// AgX of T. Sobotka (2022), half a stop brighter: 10 stops below and 6.5 above middle gray, slope 2 there, powers 3 of the toe and 3.25 of
+// the shoulder. The curve is x / (1 + x^p)^(1/p), scaled so that it passes through the corners and the pivot. Look "Punchy": power 1.35,
+// saturation 1.4.
 Light agx(const Light& color) {
   Matrix inset{};
   for (size_t c = 0; c < 3; ++c) {
