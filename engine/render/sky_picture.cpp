@@ -18,7 +18,7 @@ constexpr double kSunRadius = 2 * 0.2666 * kDegree;
 constexpr double kSunLux = 128e3;                        // of the sun outside the atmosphere
 constexpr Double3 kSunColor = {1.06, 0.99, 0.94};        // the same, linear RGB
 constexpr Double3 kWavelengths = {0.610, 0.550, 0.465};  // of the channels, micrometers
-constexpr Double3 kGroundAlbedo = {0.17, 0.19, 0.215};   // of scenery_ground.frag, so that the stage has no rim
+constexpr Double3 kGroundAlbedo = {0.115, 0.13, 0.15};   // of scenery_ground.frag, so that the stage has no rim
 
 constexpr double kHaze = 0.02;  // rad below the horizon where the ground has most of the color of the sky over it
 
