@@ -431,7 +431,10 @@ class Simulation::Impl {
     WhitewaterDesc desc = whitewaterOf(scene_, start_, fluid_->capacity());
     if (from) desc.snapshot = &from->whitewater;
     auto white = Whitewater::create(context_->device(), desc);
-    if (!white) return white.error();
+    if (!white) {
+      const std::string scene = scene_.file.empty() ? scene_.name : scene_.file.string();
+      return Error{white.error().kind, scene + ": look.whitewater: " + white.error().message};
+    }
     white_.emplace(*std::move(white));
     if (from && from->whitewater.counts.empty()) warnings_.push_back("the checkpoint has no whitewater: there is none at the start");
     if (from) whiteStats_ = whitewaterStats(from->whitewater.counts);
