@@ -175,6 +175,8 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
       return badInput("--exposure", raw.exposure, "a number of stops from -10 to 10");
     if (options.view != "final")
       return Error{ErrorKind::BadInput, "--exposure: the view " + options.view + " has none; expected --view final"};
+    if (raw.noImages && !given("--video"))
+      return Error{ErrorKind::BadInput, "--exposure: found --no-images without --video; expected images to expose"};
     options.exposure_stops = *stops;
   }
   if (raw.exr) {

@@ -89,6 +89,7 @@ TEST(CommandLine, ErrorsNameOptionAndExpectedValue) {
     expectRefused({"scene.json", "--size", bad}, {"--size", "as 1280x720"});
   for (const char* bad : {"10.5", "-11", "nan", "inf", "bright", ""})
     expectRefused({"scene.json", "--exposure", bad}, {"--exposure", "expected a number of stops from -10 to 10"});
+  expectRefused({"scene.json", "--exposure", "1", "--no-images"}, {"--exposure", "--no-images without --video", "images to expose"});
   expectRefused({"scene.json", "--exposure", "1", "--view", "depth"}, {"--exposure", "the view depth has none", "expected --view final"});
   expectRefused({"scene.json", "--export", "obj"}, {"--export", "expected ply, mesh, vtk or poses"});
   expectRefused({"scene.json", "--export", "mesh", "--mesh-format", "stl"}, {"--mesh-format", "\"stl\"", "ply, obj, glb or vtp"});
