@@ -105,5 +105,28 @@ TEST(WhitewaterRun, IsDrawnInTheFinalView) {
   EXPECT_GT(whitePixels(true), whitePixels(false) + 100);
 }
 
+TEST(WhitewaterRun, IsLitByTheSunOfTheSky) {
+  const auto redOverBlue = [](const char* sky) {
+    const auto draw = [&](bool whitewater) {
+      Scene scene = dam(whitewater);
+      scene.look.sky = sky;
+      Simulation run = opened(Simulation::open(scene, Options{.validation = true}));
+      EXPECT_TRUE(run.advance(0.7));
+      const auto image = run.render("final", 160, 90);
+      EXPECT_TRUE(image && run.takeValidationMessages().empty());
+      return image->rgba;
+    };
+    const std::vector<uint8_t> with = draw(true), without = draw(false);
+    double red = 0, blue = 1;
+    for (size_t k = 0; k < with.size(); k += 4) {
+      if (std::abs(with[k] - without[k]) < 20) continue;
+      red += with[k];
+      blue += with[k + 2];
+    }
+    return red / blue;
+  };
+  EXPECT_GT(redOverBlue("sunset"), 1.1 * redOverBlue("studio"));
+}
+
 }  // namespace whitewater_run_test
 }  // namespace rill::offline
