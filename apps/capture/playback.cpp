@@ -29,17 +29,23 @@ namespace {
 
 void message(const std::string& text) { apps::printMessage("rill-capture", text); }
 
-/// DIR/*.ply in order of their names, without meshes and whitewater.
-Expected<std::vector<fs::path>> filesIn(const fs::path& folder) {
+/// DIR/*.ply in order of their names, without meshes and whitewater. Unless `quiet`, says so if there is whitewater.
+Expected<std::vector<fs::path>> filesIn(const fs::path& folder, bool quiet) {
   std::error_code error;
   std::vector<fs::path> files;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (const std::string name = at->path().string();
-        name.ends_with(".ply") && !name.ends_with(".mesh.ply") && !name.ends_with(".whitewater.ply"))
+  size_t whitewater = 0;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().string();
+    if (name.ends_with(".whitewater.ply"))
+      ++whitewater;
+    else if (name.ends_with(".ply") && !name.ends_with(".mesh.ply"))
       files.push_back(at->path());
+  }
   if (error) return Error{ErrorKind::BadInput, "--play: cannot read the folder " + inQuotes(folder.string()) + ": " + error.message()};
   if (files.empty())
     return Error{ErrorKind::BadInput, "--play: " + inQuotes(folder.string()) + " contains no .ply file; expected a folder of frames"};
+  if (whitewater > 0 && !quiet)
+    message("warning: --play: whitewater (" + grouped(whitewater) + " of .whitewater.ply) is not drawn; drops and thin sheets are white");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -73,7 +79,7 @@ int runPlayback(const Options& options) {
   if (!found) return refuse(found.error());
   auto scene = loadScene(*found, options.overrides);
   if (!scene) return refuse(scene.error());
-  auto files = filesIn(*options.play);
+  auto files = filesIn(*options.play, options.quiet);
   if (!files) return refuse(files.error());
   if (options.frames && *options.frames < files->size()) files->resize(*options.frames);
   const bool byName = fs::path(options.scene) != *found;

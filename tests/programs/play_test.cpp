@@ -45,8 +45,11 @@ TEST(Play, AcceptsPositionsOnly) {
         "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\nend_header\n0.5 0.2 0.2\n0.6 "
         "0.3 0.2\n");
   write(folder / "in/b.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
+  write(folder / "in/b.whitewater.ply", "not read");
   const Outcome drawn = capture({scene, "--play", (folder / "in").string(), "--size", "64x36", "--out", (folder / "out").string()});
   EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_NE(drawn.err.find("warning: --play: whitewater (1 of .whitewater.ply) is not drawn"), std::string::npos) << drawn.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_00002.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_00001.png"));
 }
 
