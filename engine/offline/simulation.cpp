@@ -436,7 +436,7 @@ class Simulation::Impl {
       return Error{white.error().kind, scene + ": look.whitewater: " + white.error().message};
     }
     white_.emplace(*std::move(white));
-    if (from && from->whitewater.counts.empty()) warnings_.push_back("the checkpoint has no whitewater: there is none at the start");
+    if (from && from->whitewater.counts.empty()) warnings_.push_back("the checkpoint has no whitewater: the run begins without");
     if (from) whiteStats_ = whitewaterStats(from->whitewater.counts);
     return {};
   }

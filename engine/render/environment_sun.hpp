@@ -6,7 +6,7 @@
 
 namespace rill {
 
-/// Replaces the texels of the sun's disc by what is around it and returns the sun; no change where there is none. The light of the map and
+/// Replaces the texels of the sun's disc by what is around it and returns the sun. Without a sun nothing changes. The light of the map and
 /// the sun together stays the same.
 std::optional<EnvironmentSun> takeSun(EnvironmentPicture& picture);
 
