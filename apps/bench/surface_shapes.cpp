@@ -191,6 +191,77 @@ class Sheet : public Shape {
   double distance_, radius_;
 };
 
+/// A bent disk of one layer with a hole and round rims, seen at 40 degrees: what a splash tears.
+class TornSheet : public Shape {
+ public:
+  TornSheet(double distance, double radius) : distance_(distance), inner_(0.35 * radius + 0.5), outer_(radius - 0.5) {}
+
+  std::string name() const override { return "torn sheet"; }
+
+  bool intersect(double x, double y, ReferencePoint& reference) const override {
+    const double size = std::hypot(x, y, 1.0);
+    double t = (distance_ - 1.5 * outer_) * size;
+    for (int k = 0; k < 200 && t < (distance_ + 1.5 * outer_) * size; ++k) {
+      const Double3 p{t * x / size, t * y / size, t / size};
+      const double away = distanceTo(p);
+      if (away < 1e-7) {
+        reference = {p[2], gradientAt(p)};
+        return true;
+      }
+      t += 0.9 * away;  // distances to a bent sheet are upper bounds
+    }
+    return false;
+  }
+
+  std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const override {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> tangential(-jitter.tangential, jitter.tangential), normal(-jitter.normal, jitter.normal);
+    std::vector<Float3> out;
+    for (double ring = outer_; ring > inner_ - 0.1; --ring) {
+      const int count = static_cast<int>(2 * std::numbers::pi * ring);
+      for (int k = 0; k < count; ++k) {
+        const double angle = 2 * std::numbers::pi * k / count;
+        const double u = ring * std::cos(angle) + tangential(random), v = ring * std::sin(angle) + tangential(random);
+        const double h = bend(u) + normal(random);
+        out.push_back({float(u * kAcross[0] + h * kNormal[0]), float(v), float(distance_ + u * kAcross[2] + h * kNormal[2])});
+      }
+    }
+    return out;
+  }
+
+ private:
+  // Axes of the disk: across, up (y) and towards the eye.
+  static constexpr double kCos = 0.766044443118978, kSin = 0.642787609686539;
+  static constexpr Double3 kAcross{kCos, 0, kSin}, kNormal{kSin, 0, -kCos};
+  static constexpr double kLength = 18;  // spacings: of the bend
+
+  static double bend(double u) { return kSteepness * kLength * std::sin(2 * std::numbers::pi / kLength * u); }
+  static double slope(double u) { return kSteepness * 2 * std::numbers::pi * std::cos(2 * std::numbers::pi / kLength * u); }
+
+  /// To the surface half a spacing around the sheet of centers, by its distance at the same place of the disk.
+  double distanceTo(const Double3& p) const {
+    const double u = p[0] * kAcross[0] + (p[2] - distance_) * kAcross[2], h = p[0] * kNormal[0] + (p[2] - distance_) * kNormal[2];
+    const double from = std::hypot(u, p[1]);
+    return std::hypot(from - std::clamp(from, inner_, outer_), (h - bend(u)) / std::hypot(1.0, slope(u))) - 0.5;
+  }
+  Double3 gradientAt(const Double3& p) const {
+    constexpr double kStep = 1e-4;
+    Double3 out{};
+    double square = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      Double3 low = p, high = p;
+      low[k] -= kStep;
+      high[k] += kStep;
+      out[k] = distanceTo(high) - distanceTo(low);
+      square += out[k] * out[k];
+    }
+    for (double& value : out) value /= std::sqrt(square);
+    return out;
+  }
+
+  double distance_, inner_, outer_;  // spacings; of the sheet of centers
+};
+
 }  // namespace
 
 std::vector<std::unique_ptr<Shape>> shapes(double distance, double tanHalfFovX, double tanHalfFovY) {
@@ -205,6 +276,7 @@ std::vector<std::unique_ptr<Shape>> shapes(double distance, double tanHalfFovX, 
   all.push_back(std::make_unique<Corner>(0.7 * distance, 3 * distance * std::max(tanHalfFovX, tanHalfFovY) + 8));
   // Covers a fifth of the picture.
   all.push_back(std::make_unique<Sheet>(distance, distance * std::sqrt(0.2 * 4 * tanHalfFovX * tanHalfFovY / std::numbers::pi)));
+  all.push_back(std::make_unique<TornSheet>(distance, 0.8 * distance * tanHalfFovY));
   return all;
 }
 

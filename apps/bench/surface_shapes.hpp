@@ -31,8 +31,8 @@ class Shape {
   virtual std::vector<Float3> particles(const Jitter& jitter, uint32_t seed) const = 0;
 };
 
-/// The shapes at `distance` spacings: a tilted plane, waves of 8 to 60 spacings, two balls, a box corner, and a round sheet of one layer
-/// that covers a fifth of the picture.
+/// The shapes at `distance` spacings: a tilted plane, waves of 8 to 60 spacings, two balls, a box corner, a round sheet of one layer
+/// that covers a fifth of the picture, and a bent one with a hole.
 std::vector<std::unique_ptr<Shape>> shapes(double distance, double tanHalfFovX, double tanHalfFovY);
 /// A plane and waves seen at 50 degrees. Requires tanHalfFovX <= 1 / 1.8.
 std::vector<std::unique_ptr<Shape>> tiltedShapes(double distance, double tanHalfFovX, double tanHalfFovY);

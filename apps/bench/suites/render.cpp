@@ -73,8 +73,8 @@ std::vector<std::unique_ptr<Shape>> shapesOf(const Picture& picture, bool quick)
   return all;
 }
 
-/// Shapes of the Pareto fronts: corner and sheet are excluded, since edges dominate their errors.
-bool smooth(const Shape& shape) { return shape.name() != "corner" && shape.name() != "sheet"; }
+/// Shapes of the Pareto fronts: corner and sheets are excluded, since edges dominate their errors.
+bool smooth(const Shape& shape) { return shape.name() != "corner" && !shape.name().ends_with("sheet"); }
 
 /// A simulation run, which has no reference surface.
 struct Recorded {

@@ -30,6 +30,9 @@ constexpr Aim kAims[] = {
     {"planes", "plane", "chain, ms", &SurfaceFigures::ms, 57, kNoBand},
     {"planes", "waves 18", "chain, ms", &SurfaceFigures::ms, 57, kNoBand},
     {"planes", "sheet", "chain, ms", &SurfaceFigures::ms, 20, kNoBand},
+    {"planes", "torn sheet", "mean, degrees", &SurfaceFigures::mean, 2.5, 2.5},
+    {"planes", "torn sheet", "edge band, degrees", &SurfaceFigures::edge, 10, 14},  // planes are flat up to a rim, which is round
+    {"planes", "torn sheet", "silhouettes, IoU", &SurfaceFigures::iou, 0.975, 0.975, true},
     {"curvature flow", "waves 18", "mean, degrees", &SurfaceFigures::mean, 3, 3},
     {"curvature flow", "waves 50", "mean, degrees", &SurfaceFigures::mean, 3, 3},
     {"curvature flow", kMovingWave, "flicker, degrees", &SurfaceFigures::flicker, 2.4, 2.4},
