@@ -15,6 +15,7 @@ namespace rill::model {
 inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+y", "-z", "+z"};  // bits of SideMask
 inline constexpr std::array<std::string_view, 5> kPresetWords{"water", "milk", "ink", "clay", "pool"};
 inline constexpr std::array<std::string_view, 3> kSkyWords{"studio", "day", "sunset"};
+inline constexpr std::array<std::string_view, 2> kStageWords{"grid", "tank"};
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 
 /// The newest version of scene files that can be read.
@@ -250,6 +251,12 @@ struct Table<Look> {
                  .words = kSkyWords,
                  .since = "0.2"},
             &Look::sky},
+      Field{Info{.key = "stage",
+                 .help = "around the fluid in the view final: grid, the edges of the domain on a checkered floor, or tank, its closed "
+                         "sides as panes of glass around a pale floor, on a dark table",
+                 .words = kStageWords,
+                 .since = "0.2"},
+            &Look::stage},
       Field{Info{.key = "environment",
                  .help = "equirectangular environment map (.hdr, or .png or .jpg as sRGB) in place of the sky; the path is "
                          "relative to the scene file, at most 8192x4096 pixels"},

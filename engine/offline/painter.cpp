@@ -112,6 +112,8 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     if (!method) return Error{ErrorKind::BadInput, "look.surface: unknown method " + inQuotes(scene_.look.surface)};
     if (std::ranges::find(skies(), scene_.look.sky) == skies().end())
       return Error{ErrorKind::BadInput, "look.sky: unknown sky " + inQuotes(scene_.look.sky)};
+    if (scene_.look.stage != "grid" && scene_.look.stage != "tank")
+      return Error{ErrorKind::BadInput, "look.stage: unknown stage " + inQuotes(scene_.look.stage)};
     look_ = *look;
     look_.surface = *method;
     auto made = FluidRenderer::create(device);
@@ -185,7 +187,8 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
     targets = whitewater_->addTo(graph, white.state, targets, renderer.last.push,
                                  lookRecord(look_, renderer.last.push, renderer.environment.get()), behind, renderer.last.pixels,
                                  environment, white.size);
-  if (fluid.capacity > 0) targets = scenery_->addEdgesOverFluid(graph, targets, seen, time_s, renderer.last.pixels);
+  targets =
+      scenery_->addOverFluid(graph, targets, seen, look_, time_s, fluid.capacity > 0 ? renderer.last.pixels : BufferRef{}, environment);
   if (kind == PixelKind::Linear) return linearPixels(graph, targets.color, uint64_t{width} * height);
   return finish_.addTo(graph, targets.color, width, height, exposure_stops_);
 }

@@ -14,6 +14,7 @@ namespace {
 using surface::SurfacePush;
 
 constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
+constexpr Double3 kBehindTank = {-0.5, 0.9, -0.65};  // the studio's light: light through the fluid falls on the table before the tank
 constexpr uint32_t kEdgeVertices = 6, kEdgeCount = 12, kSolidVertices = 36;
 
 Float3 xyz(const Float4& v) { return {v.x, v.y, v.z}; }
@@ -59,9 +60,18 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     const Float3& to = environment->sun()->direction;
     toSun = {to.x, to.y, to.z};
   }
-  auto buffers = SceneBuffers::create(device, particleScene(scene, particles, toSun));
+  const bool tank = scene.look.stage == "tank" && scene.domain;
+  if (tank && !environment) toSun = kBehindTank;
+  ParticleScene host = particleScene(scene, particles, toSun);
+  if (tank) host.scene.domain_max.w = 0;  // no grid
+  auto buffers = SceneBuffers::create(device, std::move(host));
   if (!buffers) return buffers.error();
   out->buffers_ = *std::move(buffers);
+  if (tank) {
+    auto glass = GlassTank::create(device, *scene.domain, out->buffers_.host.origin, formats, environment != nullptr);
+    if (!glass) return glass.error();
+    out->tank_ = *std::move(glass);
+  }
   auto stage = SurfaceStage::create(device);
   if (!stage) return stage.error();
   out->stage_ = *stage;
@@ -236,6 +246,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   });
   if (solids) addSolids(graph, targets, camera, lit);
   addLines(graph, "scenery outlines", targets, lines_, camera, time_s);
+  if (tank_) tank_->addTo(graph, targets, camera, GlassTank::Part::Behind, record, texels);
   if (!hasEdges()) return targets;
   graph.pass("scenery edges", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget);
@@ -246,7 +257,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   return targets;
 }
 
-// Outlines of mouths and drains. `pixels`: as of addEdgesOverFluid(), where the pipeline reads them.
+// Outlines of mouths and drains. `pixels`: as of addOverFluid(), where the pipeline reads them.
 void Scenery::addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,
                        const SurfacePush& camera, double time_s, BufferRef pixels) const {
   if (buffers_.host.lines.empty()) return;
@@ -266,17 +277,19 @@ void Scenery::addLines(Graph& graph, std::string_view name, SceneTargets& target
   });
 }
 
-SceneTargets Scenery::addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, double time_s, BufferRef pixels) const {
-  addLines(graph, "scenery outlines over fluid", targets, linesOverFluid_, viewPush(view, buffers_.host.origin), time_s, pixels);
+SceneTargets Scenery::addOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, const FluidLook& look, double time_s,
+                                   BufferRef pixels, BufferRef texels) const {
+  const SurfacePush camera = viewPush(view, buffers_.host.origin);
+  if (tank_) tank_->addTo(graph, targets, camera, GlassTank::Part::Front, addLook(graph, lookRecord(look, {}, environment_)), texels);
+  if (pixels == BufferRef{}) return targets;
+  addLines(graph, "scenery outlines over fluid", targets, linesOverFluid_, camera, time_s, pixels);
   if (!hasEdges()) return targets;
   const BufferRef scene = buffers_.importScene(graph);
   graph.pass("scenery edges over fluid", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
     const Kernel kernel = bindNamed(pass, edgesOverFluid_, {{"scene", scene}, {"surface", pixels}});
-    return [kernel, camera = viewPush(view, buffers_.host.origin)](Commands& commands) {
-      commands.draw(kernel, kEdgeVertices, kEdgeCount, camera);
-    };
+    return [kernel, camera](Commands& commands) { commands.draw(kernel, kEdgeVertices, kEdgeCount, camera); };
   });
   return targets;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What stands around the fluid: sky, floor, solids, the domain's edges, outlines of mouths and drains, drawn as graphics passes with
-// shadows of solids and fluid.
+// What stands around the fluid: sky, floor, solids, the domain's edges or a glass tank, outlines of mouths and drains, drawn as graphics
+// passes with shadows of solids and fluid.
 #include <memory>
 
 #include "graph/shader_pass.hpp"
@@ -10,6 +10,7 @@
 #include "rill/particles.hpp"
 #include "rill/scene.hpp"
 #include "views/camera.hpp"
+#include "views/glass_tank.hpp"
 #include "views/scene_buffers.hpp"
 #include "views/scene_meshes.hpp"
 
@@ -28,15 +29,18 @@ class Scenery {
   /// `texels`: of the environment, where there is one.
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
                      double time_s, BufferRef texels = {}) const;
-  /// The edges and outlines that lie before the fluid, once it has been drawn: `pixels` are SurfaceBuffers::pixels of the whole picture.
-  SceneTargets addEdgesOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, double time_s, BufferRef pixels) const;
+  /// Once the fluid has been drawn: what lies before it, which is glass, or edges and outlines. `pixels`: SurfaceBuffers::pixels of the
+  /// whole picture; null if no fluid was drawn.
+  SceneTargets addOverFluid(Graph& graph, SceneTargets targets, const FluidView& view, const FluidLook& look, double time_s,
+                            BufferRef pixels, BufferRef texels = {}) const;
 
   Float3 toSun() const;
 
  private:
   surface::SurfacePush lightPush(const FluidState& fluid, const Double3& origin) const;
-  bool hasGround() const { return hasEdges() && (buffers_.host.scene.counts.w & 4u) != 0; }  // a floor that is closed
-  bool hasEdges() const { return buffers_.host.scene.domain_min.w > 0; }
+  bool hasGround() const { return hasDomain() && (buffers_.host.scene.counts.w & 4u) != 0; }  // a floor that is closed
+  bool hasDomain() const { return buffers_.host.scene.domain_min.w > 0; }
+  bool hasEdges() const { return hasDomain() && !tank_; }
 
   ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
   void addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,
@@ -47,7 +51,8 @@ class Scenery {
   const Environment* environment_ = nullptr;
   SceneBuffers buffers_;
   SceneMeshes meshes_;
-  bool hasRayCast_ = false;  ///< there are solids that are not drawn as triangles
+  std::optional<GlassTank> tank_;  ///< with look.stage tank
+  bool hasRayCast_ = false;        ///< there are solids that are not drawn as triangles
   SurfaceStage stage_;
   const GraphicsPipeline *ground_ = nullptr, *solid_ = nullptr, *solidLight_ = nullptr, *edges_ = nullptr, *edgesOverFluid_ = nullptr;
   const GraphicsPipeline *lines_ = nullptr, *linesOverFluid_ = nullptr;

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "render/look_records.h"
+#include "render/fresnel.glsl"
 
 layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
 #include "render/sky.glsl"
@@ -23,15 +24,6 @@ const float kEdgeOn = -0.02;  // largest cosine between a visible normal and the
 vec3 sceneAt(ivec2 pixel) {
   const uvec2 packed = scene_color[uint(pixel.y) * view.width + uint(pixel.x)];
   return vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x);
-}
-
-// Reflectance of unpolarized light at this cosine (Fresnel equations).
-float fresnel(float cosine, float index) {
-  const float sine = sqrt(max(1.0 - cosine * cosine, 0.0)) / index;
-  const float inner = sqrt(max(1.0 - sine * sine, 0.0));
-  const float s = (cosine - index * inner) / (cosine + index * inner);
-  const float p = (inner - index * cosine) / (inner + index * cosine);
-  return 0.5 * (s * s + p * p);
 }
 
 // Angle (rad) between the rays that this pixel and the next ones reflect. The built-in sky has no detail to be filtered.

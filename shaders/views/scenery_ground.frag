@@ -1,5 +1,5 @@
 #version 460
-// Sky, and the ground that the domain stands on: a checker inside the domain, plain outside, hazy far away. SKY: no ground.
+// Sky, and the ground: inside the domain a checker or the floor of a tank, outside plain and hazy far away. SKY: no ground.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "views/particle_records.h"
@@ -37,9 +37,12 @@ vec3 backdrop(vec3 sight) {
 vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
 #else
 // Darker than the sky that is reflected, so that reflections are seen against it.
-vec3 backdrop(vec3 sight) { return mix(vec3(0.06, 0.08, 0.11), vec3(0.010, 0.016, 0.030), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 backdrop(vec3 sight) { return mix(vec3(0.020, 0.026, 0.036), vec3(0.0012, 0.0018, 0.003), sqrt(clamp(sight.y, 0.0, 1.0))); }
 vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z))); }
 #endif
+
+const vec3 kTankFloor = vec3(0.66, 0.65, 0.62);
+const vec3 kTable = vec3(0.075, 0.078, 0.085);  // albedo
 
 void main() {
   const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);
@@ -62,8 +65,9 @@ void main() {
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
   const bool inside = all(equal(beyond, vec2(0.0)));
-  vec3 albedo = vec3(0.115, 0.13, 0.15);
-  if (inside) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
+  vec3 albedo = step > 0.0 ? vec3(0.115, 0.13, 0.15) : kTable;
+  if (inside && step <= 0.0) albedo = kTankFloor;
+  if (inside && step > 0.0) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
   const vec3 direct = sunlight() * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
   const vec3 lit = albedo * (kAmbientShare * skyLight(vec3(0.0, 1.0, 0.0)) + kSunShare * direct);

@@ -239,6 +239,7 @@ struct Look {
   std::string preset = "water";            ///< water, milk, ink, clay or pool
   std::string surface = "auto";            ///< surface reconstruction: auto, planes, curvature_flow or narrow_range
   std::string sky = "studio";              ///< studio, day or sunset; not used where there is an environment map
+  std::string stage = "grid";              ///< around the fluid in final pictures: grid or tank
   std::filesystem::path environment = {};  ///< environment map; an absolute path once the scene is loaded; empty: the sky
   bool whitewater = false;                 ///< foam, spray and bubbles as diffuse particles; see rill/whitewater.hpp
 };
