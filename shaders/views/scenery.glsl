@@ -11,25 +11,29 @@ vec2 lightTexel(vec3 p) {
   return vec2(dot(p, scene.light_u.xyz) - scene.light_u.w, dot(p, scene.light_v.xyz) - scene.light_v.w) / scene.light_texel.x;
 }
 
-float fluidThickness(ivec2 texel) {
-  if (any(lessThan(texel, ivec2(0))) || texel.x >= int(scene.counts.y) || texel.y >= int(scene.counts.z)) return 0.0;
-  return float(fluid_shadow[uint(texel.y) * scene.counts.y + uint(texel.x)]) * look.finish.z;
+// Weights of four texels along an axis for the mean over three texels at a position between the inner two; 0 outside of the map.
+vec4 shadowWeights(ivec4 texels, float part, int size) {
+  const vec4 inside = vec4(greaterThanEqual(texels, ivec4(0))) * vec4(lessThan(texels, ivec4(size)));
+  return vec4(1.0 - part, 1.0, 1.0, part) * inside / 3.0;
 }
 
 // What of the sun's light comes through the fluid.
 vec3 throughFluid(vec3 p) {
   const vec2 at = lightTexel(p);
   if (any(lessThan(at, vec2(-2.0))) || any(greaterThan(at, vec2(scene.counts.yz) + 1.0))) return vec3(1.0);
-  const ivec2 base = ivec2(floor(at));
+  const ivec2 base = ivec2(floor(at)), size = ivec2(scene.counts.yz);
   const vec2 part = at - floor(at);
+  const ivec4 columns = base.x + ivec4(-1, 0, 1, 2), rows = base.y + ivec4(-1, 0, 1, 2);
+  const vec4 across = shadowWeights(columns, part.x, size.x), down = shadowWeights(rows, part.y, size.y);
+  const uvec4 x = uvec4(clamp(columns, ivec4(0), ivec4(size.x - 1)));
   // Twice as wide as a texel is: the disc of the sun blurs the edge.
-  float meters = 0.0;
-  RILL_LOOP for (int y = -1; y <= 2; ++y)
-    RILL_LOOP for (int x = -1; x <= 2; ++x) {
-      const float wx = x == -1 ? 1.0 - part.x : (x == 2 ? part.x : 1.0), wy = y == -1 ? 1.0 - part.y : (y == 2 ? part.y : 1.0);
-      meters += wx * wy * fluidThickness(base + ivec2(x, y));
-    }
-  meters /= 9.0;
+  float counts = 0.0;
+  RILL_LOOP for (int k = 0; k < 4; ++k) {
+    const uint first = uint(clamp(rows[k], 0, size.y - 1)) * scene.counts.y;
+    const vec4 row = vec4(fluid_shadow[first + x.x], fluid_shadow[first + x.y], fluid_shadow[first + x.z], fluid_shadow[first + x.w]);
+    counts += down[k] * dot(across, row);
+  }
+  const float meters = counts * look.finish.z;
   const float spread = 1.0 - exp(-meters / (2.0 * view.spacing));  // what the surface bends away
   return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-look.absorption.rgb * meters) * (1.0 - 0.45 * spread);
 }
