@@ -2,19 +2,18 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <new>
 #include <numbers>
 #include <optional>
 
 #include "core/words.hpp"
-#include "fill/mouth.hpp"
 #include "fluid/settings.hpp"
 #include "offline/advances.hpp"
 #include "offline/context.hpp"
 #include "offline/mesh_readout.hpp"
 #include "offline/painter.hpp"
 #include "offline/pass_log.hpp"
+#include "offline/probe_values.hpp"
 #include "offline/probes.hpp"
 #include "offline/readout.hpp"
 #include "offline/simulation_keys.hpp"
@@ -23,7 +22,6 @@
 #include "rill/offline.hpp"
 #include "rill/version.hpp"
 #include "shape/mass.hpp"
-#include "shape/pose.hpp"
 #include "whitewater/whitewater_records.h"
 
 namespace rill::offline {
@@ -190,7 +188,7 @@ class Simulation::Impl {
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
     stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies());
-    for (const Probe& probe : scene_.probes) stats.probes.emplace_back(probe.name, valueOf(probe, reader));
+    stats.probes = probes_.read(*fluid_, reader, measured_->time_s, advanced_s_ - advanced_.timeDropped_s);
     if (white_) stats.whitewater = whiteStats_;
     stats.pictureBoundHits = pictureBoundHits_;
     stats.wall_s = wall_s_;
@@ -290,78 +288,8 @@ class Simulation::Impl {
     return now;
   }
 
-  ProbeValue valueOf(const Probe& probe, const ProbeReader& reader) const {
-    if (probe.level) return reader.level(probe.level->first, probe.level->second);
-    if (probe.front) return reader.front(*probe.front);
-    if (probe.pressure) return pressureAt(probe);
-    if (!probe.flow.empty()) return flowThrough(probe.flow);
-    return probe.load.empty() ? ProbeValue(poseOf(solidNamed(probe.pose))) : loadOn(solidNamed(probe.load));
-  }
-
-  size_t solidNamed(const std::string& name) const {
-    return static_cast<size_t>(std::ranges::find(scene_.solids, name, &Solid::name) - scene_.solids.begin());
-  }
-
-  PoseValue poseOf(size_t solid) const {
-    for (const BodyMotion& body : fluid_->bodies())
-      if (body.solid == solid) return {body.center, body.rotation, body.velocity, body.angularVelocity};
-    return valueOf(solidPose(scene_.solids[solid], measured_->time_s));
-  }
-
-  static PoseValue valueOf(const Pose& pose) { return {pose.center, pose.rotation, pose.velocity, pose.angularVelocity}; }
-
-  double advancedSeconds() const { return advanced_s_ - advanced_.timeDropped_s; }
-
-  /// Mean over the last advance().
-  PressureValue pressureAt(const Probe& probe) const {
-    size_t k = 0;  // among the probes of pressure
-    for (const Probe* other = scene_.probes.data(); other != &probe; ++other) k += other->pressure.has_value();
-    const auto readings = fluid_->pressures();
-    if (k >= readings.size()) return {};  // a fluid without particles
-    if (readings[k].covered) return {std::numeric_limits<double>::quiet_NaN()};
-    const double seconds = advancedSeconds();
-    return {seconds > 0 && k < pressuresBefore_.size() ? (readings[k].integral - pressuresBefore_[k].integral) / seconds
-                                                       : readings[k].mean};
-  }
-
-  /// Of the emitter or drain of this name: their volumes, emitters first.
-  FlowValue flowThrough(const std::string& name) const {
-    const auto nameOf = [](const auto& flow) -> const std::string& { return flow.name; };
-    const std::vector<Emitter> emitters = emittersOf(scene_);
-    const auto emitter = std::ranges::find(emitters, name, nameOf);
-    const auto drain = std::ranges::find(scene_.drains, name, nameOf);
-    const size_t k = emitter != emitters.end() ? static_cast<size_t>(emitter - emitters.begin())
-                                               : emitters.size() + static_cast<size_t>(drain - scene_.drains.begin());
-    const double volume = flowVolumes()[k], seconds = advancedSeconds();
-    return {seconds > 0 && k < volumesBefore_.size() ? (volume - volumesBefore_[k]) / seconds : 0.0, volume};
-  }
-
-  std::vector<double> flowVolumes() const {
-    std::vector<double> volumes;
-    for (const auto flows : {fluid_->emitted(), fluid_->drained()})
-      for (const FlowReading& flow : flows) volumes.push_back(flow.volume);
-    return volumes;
-  }
-
-  /// Mean over the last advance().
-  LoadValue loadOn(size_t solid) const {
-    LoadValue value;
-    const double seconds = advancedSeconds();
-    if (!(seconds > 0) || loadsBefore_.size() <= solid) return value;
-    const SolidLoad &before = loadsBefore_[solid], &now = fluid_->solidLoads()[solid];
-    for (size_t a = 0; a < 3; ++a) {
-      value.force[a] = (now.impulse[a] - before.impulse[a]) / seconds;
-      value.torque[a] = (now.angularImpulse[a] - before.angularImpulse[a]) / seconds;
-    }
-    return value;
-  }
-
   void beginAdvance() {
-    const auto loads = fluid_->solidLoads();
-    loadsBefore_.assign(loads.begin(), loads.end());
-    const auto pressures = fluid_->pressures();
-    pressuresBefore_.assign(pressures.begin(), pressures.end());
-    volumesBefore_ = flowVolumes();
+    probes_.beginAdvance(*fluid_);
     advanced_s_ = 0;
     if (measured_) asleep_ = fluid_->progress().asleep ? measured_ : std::nullopt;
     measured_.reset();
@@ -534,11 +462,8 @@ class Simulation::Impl {
   double time_s_ = 0;
   double wall_s_ = 0;
   uint64_t pictureBoundHits_ = 0;  ///< at the current time
-  // Before the last advance().
-  std::vector<SolidLoad> loadsBefore_;
-  std::vector<PressureReading> pressuresBefore_;
-  std::vector<double> volumesBefore_;  ///< m^3, through emitters, then drains
-  double advanced_s_ = 0;              ///< of the last advance(), dropped time included
+  ProbeValues probes_{scene_};
+  double advanced_s_ = 0;  ///< of the last advance(), dropped time included
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
