@@ -49,6 +49,7 @@ class Capture {
     settings.pipelineCache = apps::pipelineCacheFolder();
     settings.orbit_degPerS = options_.orbit_degPerS;
     settings.exposure_stops = options_.exposure_stops;
+    settings.film = options_.film.film(fps_);
     settings.passTimes = options_.passTimes && (options_.stats || options_.explain);
     auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, settings) : offline::Simulation::open(scene_, settings);
     if (!simulation) return refuse(resumed_ ? aboutCheckpoint(simulation.error()) : simulation.error());

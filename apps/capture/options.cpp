@@ -30,7 +30,7 @@ constexpr uint64_t kMaxPixels = 1ull << 25;  // an image is one buffer of 128 Mi
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
   std::string scene, frames, fps, size, out, view, video, stats, particles, device, checkpoint, checkpointEvery, resume, play, orbit,
-      exposure, graph, reads;
+      exposure, graph, reads, samples, shutter, aperture, focus;
   std::vector<std::string> set, require, exportAs;
   std::string meshFormat, meshCell;
   bool explain = false, noImages = false, noPassTimes = false, quiet = false, exr = false;
@@ -57,7 +57,7 @@ void declare(CLI::App& app, Raw& raw) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->expected(1);
   };
-  const std::string what = "Scene", written = "Output", run = "Run";
+  const std::string what = "Scene", written = "Output", film = "Film effects", run = "Run";
   app.add_option("SCENE", raw.scene, "name of a scene, or path of a .json file")->type_name("")->required()->group(what);
   once("--frames", raw.frames, "number of frames, including the start (default: the scene's duration)", "N", what);
   once("--fps", raw.fps, "frames per simulated second (default: 60)", "F", what);
@@ -72,6 +72,17 @@ void declare(CLI::App& app, Raw& raw) {
   once("--view", raw.view, "view to draw: " + apps::viewNames() + " (default: final)", "VIEW", written);
   once("--orbit", raw.orbit, "rotate the camera about its target, in degrees per simulated second", "DEG_PER_S", written);
   once("--exposure", raw.exposure, "brighten the view final by EV stops, each twice the light (-10 to 10, default: 0)", "EV", written);
+  once("--samples", raw.samples, "mean of N pictures of the view final, each at another point of the pixels (1 to 256, default: 1)", "N",
+       film);
+  once("--shutter", raw.shutter,
+       "motion blur: the shutter is open for DEG / 360 of a frame's time (0 to 360, default: 0; 180 is usual; --samples: " +
+           std::to_string(offline::kFilmSamples) + ")",
+       "DEG", film);
+  once("--aperture", raw.aperture,
+       "depth of field of a lens with this f-number before a full-frame sensor (0.5 to 64, default: none; --samples: " +
+           std::to_string(offline::kFilmSamples) + ")",
+       "F", film);
+  once("--focus", raw.focus, "distance that is sharp with --aperture, in meters (default: that of the camera's target)", "M", film);
   once("--video", raw.video, "also write the images as a video (.mp4, .mkv or .mov; needs the program ffmpeg)", "FILE", written);
   app.add_flag("--exr", raw.exr,
                "write images of the view final as OpenEXR in linear light, before exposure and tone curve, in place of PNG")
@@ -179,6 +190,14 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
       return Error{ErrorKind::BadInput, "--exposure: found --no-images without --video; expected images to expose"};
     options.exposure_stops = *stops;
   }
+  const auto ifGiven = [&](const char* name, const std::string& text) { return given(name) ? std::optional(text) : std::nullopt; };
+  auto film = filmOptions({.samples = ifGiven("--samples", raw.samples),
+                           .shutter = ifGiven("--shutter", raw.shutter),
+                           .aperture = ifGiven("--aperture", raw.aperture),
+                           .focus = ifGiven("--focus", raw.focus)},
+                          options.view, !raw.noImages || given("--video"));
+  if (!film) return film.error();
+  options.film = *film;
   if (raw.exr) {
     if (!apps::writesExr())
       return Error{ErrorKind::BadInput, "--exr: this rill-capture was built without OpenEXR; expected a build with it"};
@@ -313,6 +332,8 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
              "      a long run that is interrupted and resumed; the result is the same as without the interruption\n"
              "  rill-capture dam-break --no-images --video dam.mp4\n"
              "      writes only a video; after Ctrl-C it contains the frames so far\n"
+             "  rill-capture dam-break --fps 24 --shutter 180 --aperture 2.8 --video dam.mp4\n"
+             "      with the motion blur and the depth of field of a film camera\n"
              "  rill-capture dam-break --play frames --view final\n"
              "      draws frames/*.ply with the camera, solids and appearance of dam-break\n"
              "\nExit codes: 0 success, 1 error while running, 2 bad usage or input, 3 a --require does not hold,\n"

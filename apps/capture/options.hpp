@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/film_options.hpp"
 #include "capture/requirement.hpp"
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
@@ -29,6 +30,7 @@ struct Options {
   std::string view = "final";
   double orbit_degPerS = 0;                    ///< rotation of the camera about its target
   double exposure_stops = 0;                   ///< of the view final
+  FilmOptions film;                            ///< of the view final
   std::optional<std::filesystem::path> video;  ///< video file of the images
   std::optional<std::filesystem::path> stats;
   std::optional<std::filesystem::path> graph;  ///< passes of the last image, in Graphviz's dot language

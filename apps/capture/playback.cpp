@@ -51,11 +51,16 @@ Expected<std::vector<fs::path>> filesIn(const fs::path& folder, bool quiet) {
 }
 
 /// Shows the particles of a file, relative to the first one to keep precision far from the origin.
-Expected<void> show(offline::Player& player, const fs::path& file, double time_s) {
+/// `warned`: says once where a file has no velocities; null: nothing needs them.
+Expected<void> show(offline::Player& player, const fs::path& file, double time_s, bool* warned) {
   auto opened = PlyFile::open(file);
   if (!opened) return Error{opened.error().kind, "--play: " + opened.error().message};
   auto particles = opened->read();
   if (!particles) return Error{particles.error().kind, "--play: " + particles.error().message};
+  if (warned && !*warned && particles->velocities.empty() && !particles->positions.empty()) {
+    message("warning: --shutter: " + inQuotes(file.string()) + " has no velocities (vx, vy, vz): its fluid is drawn without motion blur");
+    *warned = true;
+  }
   Double3 origin = {0, 0, 0};
   if (!particles->positions.empty()) {
     const Double3& first = particles->positions.front();
@@ -101,6 +106,7 @@ int runPlayback(const Options& options) {
   settings.pipelineCache = apps::pipelineCacheFolder();
   settings.orbit_degPerS = options.orbit_degPerS;
   settings.exposure_stops = options.exposure_stops;
+  settings.film = options.film.film(options.fps);
   auto player = offline::Player::open(*std::move(scene), settings);
   if (!player) return refuse(player.error());
   if (auto ready = player->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());
@@ -125,8 +131,9 @@ int runPlayback(const Options& options) {
             ", " + player->device().name);
   const auto begin = std::chrono::steady_clock::now();
   uint64_t hits = 0;
+  bool warned = options.quiet;
   const auto frame = [&](uint32_t k) -> Expected<void> {
-    if (auto shown = show(*player, (*files)[k], k / options.fps); !shown) return shown;
+    if (auto shown = show(*player, (*files)[k], k / options.fps, options.film.shutter_deg > 0 ? &warned : nullptr); !shown) return shown;
     if (options.exr) {
       auto image = player->renderLinear(options.width, options.height);
       if (!image) return image.error();

@@ -67,7 +67,7 @@ Expected<void> Session::begin(std::string_view text, std::vector<Override> chang
   return {};
 }
 
-void Session::resetPainter() { painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start(), 0); }
+void Session::resetPainter() { painter_ = std::make_unique<offline::Painter>(runner_->scene(), runner_->start()); }
 
 Expected<void> Session::changeSolids(std::vector<Solid> solids) {
   auto changed = runner_->changeSolids(std::move(solids));

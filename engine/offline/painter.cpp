@@ -8,6 +8,7 @@
 
 #include "core/words.hpp"
 #include "gpu/resources.hpp"
+#include "gpu/vulkan_error.hpp"
 #include "render/check_input.hpp"
 #include "render/fluid_renderer_impl.hpp"
 
@@ -88,8 +89,9 @@ Expected<void> Painter::check(std::string_view name, uint32_t width, uint32_t he
   return ParticleView::check(desc);
 }
 
-Expected<void> Painter::checkExposure(double stops) {
-  if (std::abs(stops) <= kMaxExposure_stops) return {};
+Expected<void> Painter::checkOptions(const Options& options) {
+  const double stops = options.exposure_stops;
+  if (std::abs(stops) <= kMaxExposure_stops) return checkFilm(options.film);
   return Error{ErrorKind::BadInput, "Options::exposure_stops is " + shortestNumber(stops) + "; expected a number from -" +
                                         shortestNumber(kMaxExposure_stops) + " to " + shortestNumber(kMaxExposure_stops)};
 }
@@ -126,7 +128,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     return Error{ErrorKind::TooLarge, "look.whitewater: a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                                           " pixels needs a buffer of " + bytesText(dots) + "; expected at most " + bytesText(most) +
                                           " on this device"};
-  if (scenery_) return {};
+  if (auto ready = prepareFilm(device, width, height); !ready || scenery_) return ready;
   if (!scene_.look.environment.empty()) {
     const auto picture = loadEnvironment(scene_.look.environment);
     if (!picture) return environmentError(picture.error());
@@ -147,6 +149,23 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
   scenery_ = std::move(*scenery);
   look_.toSun = scenery_->toSun();
   return {};
+}
+
+/// Needs the shaders of engine/views, which the scenery brings to the device.
+Expected<void> Painter::prepareFilm(Device& device, uint32_t width, uint32_t height) {
+  if (sampleCount(film_) == 1) return {};
+  bringViewShaders(device);
+  if (!sum_) {
+    auto made = FilmSum::create(device);
+    if (!made) return made.error();
+    sum_ = *std::move(made);
+  }
+  if (film_.shutter_s > 0 && !motion_) {
+    auto made = Motion::create(device);
+    if (!made) return made.error();
+    motion_ = *made;
+  }
+  return sum_->resize(device, width, height);
 }
 
 PictureTickets Painter::declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height,
@@ -172,9 +191,16 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
     const double full = view.data == SurfaceData::Depth ? 2 * seen.focus_m : 0.5 * seen.focus_m;
     return fluid_->addData(graph, fluid, seen, view.data, static_cast<float>(full), look_.surface);
   }
+  const ImageRef color = addLight(graph, fluid, seen, time_s, white);
+  if (kind == PixelKind::Linear) return linearPixels(graph, color, uint64_t{width} * height);
+  return finish_.addTo(graph, color, width, height, exposure_stops_);
+}
+
+/// The view final in linear light.
+ImageRef Painter::addLight(Graph& graph, const FluidState& fluid, const FluidView& seen, double time_s, const DrawnWhitewater& white) {
   const TargetFormats formats;
-  SceneTargets targets{graph.create("picture color", {formats.color, width, height}),
-                       graph.create("picture depth", {formats.depth, width, height})};
+  SceneTargets targets{graph.create("picture color", {formats.color, seen.width, seen.height}),
+                       graph.create("picture depth", {formats.depth, seen.width, seen.height})};
   FluidRendererImpl& renderer = implOf(*fluid_);
   const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
@@ -189,8 +215,36 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
                                  environment, white.size);
   targets =
       scenery_->addOverFluid(graph, targets, seen, look_, time_s, fluid.capacity > 0 ? renderer.last.pixels : BufferRef{}, environment);
-  if (kind == PixelKind::Linear) return linearPixels(graph, targets.color, uint64_t{width} * height);
-  return finish_.addTo(graph, targets.color, width, height, exposure_stops_);
+  return targets.color;
+}
+
+uint32_t Painter::samples(std::string_view name) const {
+  const View* view = find(name);
+  return view && view->kind == Kind::Final ? sampleCount(film_) : 1;
+}
+
+PictureTickets Painter::declareSample(Graph& graph, const FluidState& fluid, const DrawnWhitewater& white, uint32_t width, uint32_t height,
+                                      double time_s, uint32_t k) {
+  const FilmSample sample = filmSample(k, sampleCount(film_));
+  const double since = film_.shutter_s * sample.time;
+  FluidState state = fluid;
+  DrawnWhitewater drawn = white;
+  if (motion_) {
+    state = motion_->addTo(graph, fluid, static_cast<uint32_t>(scene_.solids.size()), since);
+    drawn.state = motion_->addTo(graph, white.state, since);
+  }
+  const CameraView eye = camera(width, height, time_s + since);
+  const FluidView seen = fluidView(eye, width, height, scene_.fluid.spacing, cameraOffset(film_, sample, eye));
+  sum_->add(graph, addLight(graph, state, seen, time_s + since, drawn), k == 0);
+  graph.skipped("picture edges", "a mean of several pictures has smooth ones");
+  PictureTickets tickets;
+  if (fluid.capacity > 0) tickets.counters = graph.readback(implOf(*fluid_).last.counters);
+  return tickets;
+}
+
+PictureTickets Painter::declareMean(Graph& graph, PixelKind kind) const {
+  const uint32_t count = sampleCount(film_);
+  return {graph.readback(kind == PixelKind::Linear ? sum_->linear(graph, count) : sum_->picture(graph, count, exposure_stops_))};
 }
 
 void Painter::finish(Image& image, std::string_view name, double time_s) const {

@@ -7,10 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "offline/film.hpp"
 #include "rill/fluid_renderer.hpp"
 #include "rill/offline.hpp"
+#include "views/film_sum.hpp"
 #include "views/finish.hpp"
 #include "views/legend.hpp"
+#include "views/motion.hpp"
 #include "views/particle_view.hpp"
 #include "views/scenery.hpp"
 #include "views/whitewater_view.hpp"
@@ -20,7 +23,7 @@ namespace rill::offline {
 /// Read-backs of a picture.
 struct PictureTickets {
   Ticket picture;
-  std::optional<Ticket> counters;  ///< of the surface renderer, if it was used
+  std::optional<Ticket> counters = {};  ///< of the surface renderer, if it was used
 };
 
 /// Number of times that shader loops of the picture reached their limit. The frame must have completed.
@@ -49,12 +52,12 @@ struct DrawnWhitewater {
 /// Renders the views of a simulation.
 class Painter {
  public:
-  /// `scene` and `start` must outlive it. `exposure_stops` as checkExposure() allows.
-  Painter(const Scene& scene, const ParticleSet& start, double orbit_degPerS, double exposure_stops = 0)
-      : scene_(scene), start_(start), orbit_degPerS_(orbit_degPerS), exposure_stops_(exposure_stops) {}
+  /// `scene` and `start` must outlive it. `options` as checkOptions() allows.
+  Painter(const Scene& scene, const ParticleSet& start, const Options& options = {})
+      : scene_(scene), start_(start), orbit_degPerS_(options.orbit_degPerS), exposure_stops_(options.exposure_stops), film_(options.film) {}
 
-  /// BadInput for a value that Options::exposure_stops does not allow.
-  static Expected<void> checkExposure(double stops);
+  /// BadInput for values of pictures that Options does not allow.
+  static Expected<void> checkOptions(const Options& options);
 
   static std::span<const std::string_view> views();
   /// BadInput for an unknown view or an unsupported size. Needs no device.
@@ -67,6 +70,13 @@ class Painter {
   /// The same from the scene's camera, with read-backs.
   PictureTickets declare(Graph& graph, const FluidState& fluid, std::string_view view, uint32_t width, uint32_t height, double time_s,
                          PixelKind kind = PixelKind::Display, const DrawnWhitewater& white = {});
+  /// Pictures whose mean a picture of this view is; 1: declare() draws it.
+  uint32_t samples(std::string_view view) const;
+  /// Adds the passes that draw sample `k` of a picture of the view final and add it to the sum of the samples before. Without `picture`.
+  PictureTickets declareSample(Graph& graph, const FluidState& fluid, const DrawnWhitewater& white, uint32_t width, uint32_t height,
+                               double time_s, uint32_t k);
+  /// The mean of all samples, with its read-back.
+  PictureTickets declareMean(Graph& graph, PixelKind kind) const;
   /// The color scale of a view; empty for views without one, or before prepare().
   std::optional<LegendDesc> legend(std::string_view view, double time_s) const;
   /// Draws the legend of a view into a finished picture, on the host.
@@ -76,16 +86,21 @@ class Painter {
   /// The scene's camera, rotated about its target for `time_s`.
   CameraView camera(uint32_t width, uint32_t height, double time_s) const;
   Error environmentError(const Error& error) const;
+  Expected<void> prepareFilm(Device& device, uint32_t width, uint32_t height);
+  ImageRef addLight(Graph& graph, const FluidState& fluid, const FluidView& view, double time_s, const DrawnWhitewater& white);
 
   const Scene& scene_;
   const ParticleSet& start_;
   double orbit_degPerS_, exposure_stops_;
+  Film film_;
   std::unique_ptr<ParticleView> particles_;
   std::optional<FluidRenderer> fluid_;
   std::unique_ptr<Scenery> scenery_;
   Finish finish_;
   std::optional<WhitewaterView> whitewater_;  ///< with Look::whitewater
   FluidLook look_;
+  std::optional<FilmSum> sum_;    ///< with more than one sample
+  std::optional<Motion> motion_;  ///< with Film::shutter_s
 };
 
 }  // namespace rill::offline

@@ -1,12 +1,14 @@
 // Renders given particles.
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <new>
 #include <optional>
 
 #include "gpu/resources.hpp"
 #include "offline/context.hpp"
 #include "offline/painter.hpp"
+#include "offline/picture_run.hpp"
 #include "rill/offline.hpp"
 
 namespace rill::offline {
@@ -18,11 +20,10 @@ Error outOfMemory(const char* what) { return {ErrorKind::OutOfMemory, std::strin
 
 class Player::Impl {
  public:
-  Impl(Scene scene, const Options& options)
-      : scene_(std::move(scene)), painter_(scene_, start_, options.orbit_degPerS, options.exposure_stops) {}
+  Impl(Scene scene, const Options& options) : scene_(std::move(scene)), painter_(scene_, start_, options) {}
 
   Expected<void> open(const Options& options) {
-    if (auto valid = Painter::checkExposure(options.exposure_stops); !valid) return valid;
+    if (auto valid = Painter::checkOptions(options); !valid) return valid;
     auto start = makeParticles(scene_);
     if (!start) return start.error();
     start_ = std::move(*start);
@@ -52,6 +53,7 @@ class Player::Impl {
     count_ = static_cast<uint32_t>(positions.size());
     time_s_ = time_s;
     origin_ = origin;
+    pictures_.contentChanged();
     if (count_ == 0) return {};
     for (const auto& [buffer, from, w] : {std::tuple{&position_, &positions, 0.0f}, std::tuple{&velocity_, &velocities, 1.0f}}) {
       const uint64_t bytes = uint64_t{count_} * sizeof(Float4);
@@ -85,8 +87,8 @@ class Player::Impl {
     return image;
   }
 
-  std::string pictureDot() const { return graph_.dot(); }
-  uint64_t boundHits() const { return boundHits_; }
+  std::string pictureDot() const { return pictures_.graph().dot(); }
+  uint64_t boundHits() const { return pictures_.boundHits(); }
   const DeviceInfo& device() const { return context_->device().info(); }
   std::vector<std::string> takeMessages() { return context_->takeMessages(); }
   const Scene& scene() const { return scene_; }
@@ -95,28 +97,36 @@ class Player::Impl {
   template <class T>
   Expected<void> draw(std::string_view view, std::vector<T>& rgba, uint32_t width, uint32_t height, PixelKind kind) {
     if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
-    graph_.reset();
+    const PictureRun::Source source{.time_s = time_s_,
+                                    .content = [&](Graph& graph) { return PictureRun::Content{.fluid = drawn(graph)}; },
+                                    .run = [&](Graph& graph, const auto& declare) { return run(graph, declare); }};
+    return pictures_.draw(painter_, source, view, width, height, kind, rgba);
+  }
+
+  FluidState drawn(Graph& graph) {
     FluidState fluid;
     fluid.capacity = count_;
     fluid.spacing = static_cast<float>(scene_.fluid.spacing);
     fluid.origin = origin_;
     if (count_ > 0) {
-      fluid.position = staged("played positions", position_);
-      fluid.velocity = staged("played velocities", velocity_);
+      fluid.position = staged(graph, "played positions", position_);
+      fluid.velocity = staged(graph, "played velocities", velocity_);
     }
-    const PictureTickets tickets = painter_.declare(graph_, fluid, view, width, height, time_s_, kind);
-    if (auto ran = context_->run(graph_); !ran) return ran.error();
-    if (auto waited = context_->wait(); !waited) return waited.error();
-    if (auto read = readPixels(graph_, tickets, view, 4 * size_t{width} * height, rgba); !read) return read;
-    boundHits_ = offline::boundHits(graph_, tickets);
-    return {};
+    return fluid;
+  }
+
+  Expected<void> run(Graph& graph, const std::function<void(Graph&)>& declare) {
+    graph.reset();
+    declare(graph);
+    if (auto ran = context_->run(graph); !ran) return ran;
+    return context_->wait();
   }
 
   /// A copy of the particles in the device's memory: passes read them many times.
-  BufferRef staged(std::string_view name, const Buffer& buffer) {
-    const BufferRef host = graph_.import("played particles", {buffer.handle(), 0, buffer.size(), Use::Nothing, Use::Nothing});
-    BufferRef copied = graph_.create(name, {buffer.size()});
-    graph_.pass("upload particles", [&](Pass& pass) {
+  BufferRef staged(Graph& graph, std::string_view name, const Buffer& buffer) {
+    const BufferRef host = graph.import("played particles", {buffer.handle(), 0, buffer.size(), Use::Nothing, Use::Nothing});
+    BufferRef copied = graph.create(name, {buffer.size()});
+    graph.pass("upload particles", [&](Pass& pass) {
       pass.read(host, Use::CopySource);
       copied = pass.write(copied, Use::CopyTarget, true);
       return [host, copied, bytes = buffer.size()](Commands& commands) { commands.copy(host, copied, bytes); };
@@ -131,9 +141,8 @@ class Player::Impl {
   uint32_t count_ = 0;
   Double3 origin_ = {0, 0, 0};
   double time_s_ = 0;
-  uint64_t boundHits_ = 0;  ///< of the last picture
   Painter painter_;
-  Graph graph_;
+  PictureRun pictures_;
 };
 
 Player::Player(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -13,6 +13,7 @@
 #include "offline/mesh_readout.hpp"
 #include "offline/painter.hpp"
 #include "offline/pass_log.hpp"
+#include "offline/picture_run.hpp"
 #include "offline/probe_values.hpp"
 #include "offline/probes.hpp"
 #include "offline/readout.hpp"
@@ -46,7 +47,7 @@ class Simulation::Impl {
   /// Uses the given particles, or makes those of the scene's fills.
   Expected<void> place(std::optional<ParticleSet> given) {
     if (auto valid = checkScene(scene_); !valid) return valid;
-    if (auto valid = Painter::checkExposure(options_.exposure_stops); !valid) return valid;
+    if (auto valid = Painter::checkOptions(options_); !valid) return valid;
     constexpr double kShortestFrame = 1e-6;  // s; limits the number of frames of an advance
     if (!(options_.longestFrame_s >= kShortestFrame))
       return Error{ErrorKind::BadInput, "Options::longestFrame_s is " + shortestNumber(options_.longestFrame_s) + "; expected at least " +
@@ -92,7 +93,8 @@ class Simulation::Impl {
       time_s_ = from->time_s;
       addResumeWarnings(*from);
     }
-    for (Graph* graph : {&advanceGraph_, &measureGraph_, &whiteGraph_, &renderGraph_}) graph->enableTimings(options_.passTimes);
+    for (Graph* graph : {&advanceGraph_, &measureGraph_, &whiteGraph_}) graph->enableTimings(options_.passTimes);
+    pictures_.enableTimings(options_.passTimes);
     return scene_.look.whitewater && fluid_->capacity() > 0 ? openWhitewater(from) : Expected<void>();
   }
 
@@ -253,12 +255,13 @@ class Simulation::Impl {
                                        {"measure", &measureGraph_},
                                        {"mesh", &meshGraph_},
                                        {"whitewater", &whiteGraph_},
-                                       {"picture", &renderGraph_}})
+                                       {"picture", &pictures_.graph()},
+                                       {"mean of pictures", &pictures_.meanGraph()}})
       if (const auto heaps = graph->transientHeaps(); !heaps.empty()) all.push_back({frame, {heaps.begin(), heaps.end()}});
     return all;
   }
   std::string graphDot() const { return advanceGraph_.dot(); }
-  std::string pictureDot() const { return renderGraph_.dot(); }
+  std::string pictureDot() const { return pictures_.graph().dot(); }
   std::vector<std::string> takeValidationMessages() { return context_->takeMessages(); }
 
   std::vector<std::string> warnings() const {
@@ -275,21 +278,23 @@ class Simulation::Impl {
     if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
     if (auto measured = measure(); !measured) return measured.error();
     const double now = measured_->time_s;  // on the device, which is behind time() if time was dropped
-    PictureTickets tickets;
-    auto ran = run(renderGraph_, [&](Graph& graph) {
-      const FluidState state = fluid_->addTo(graph, {});
-      DrawnWhitewater white;
-      if (white_) white = {white_->addTo(graph, state, 0), std::cbrt(white_->desc().parcel_m3 * 3 / (4 * std::numbers::pi))};
-      tickets = painter_.declare(graph, state, view, width, height, now, kind, white);
-    });
-    if (!ran) return ran.error();
-    if (auto read = readPixels(renderGraph_, tickets, view, 4 * size_t{width} * height, rgba); !read) return read.error();
-    pictureBoundHits_ += boundHits(renderGraph_, tickets);
+    const PictureRun::Source source{.time_s = now,
+                                    .content = [&](Graph& graph) { return drawn(graph); },
+                                    .run = [&](Graph& graph, const auto& declare) { return run(graph, declare); }};
+    if (auto ok = pictures_.draw(painter_, source, view, width, height, kind, rgba); !ok) return ok.error();
+    pictureBoundHits_ += pictures_.boundHits();
     return now;
+  }
+
+  PictureRun::Content drawn(Graph& graph) {
+    PictureRun::Content content{.fluid = fluid_->addTo(graph, {})};
+    if (white_) content.white = {white_->addTo(graph, content.fluid, 0), std::cbrt(white_->desc().parcel_m3 * 3 / (4 * std::numbers::pi))};
+    return content;
   }
 
   void beginAdvance() {
     probes_.beginAdvance(*fluid_);
+    pictures_.contentChanged();
     advanced_s_ = 0;
     if (measured_) asleep_ = fluid_->progress().asleep ? measured_ : std::nullopt;
     measured_.reset();
@@ -445,9 +450,10 @@ class Simulation::Impl {
   std::vector<std::string> warnings_;
   std::optional<Context> context_;
   std::optional<Fluid> fluid_;
-  Painter painter_{scene_, start_, options_.orbit_degPerS, options_.exposure_stops};
+  Painter painter_{scene_, start_, options_};
+  PictureRun pictures_;
   // One graph per kind of frame, so that each keeps its memory plan.
-  Graph advanceGraph_, measureGraph_, meshGraph_, whiteGraph_, renderGraph_;
+  Graph advanceGraph_, measureGraph_, meshGraph_, whiteGraph_;
   std::optional<Whitewater> white_;  ///< with Look::whitewater
   WhitewaterStats whiteStats_;       ///< at the current time
   double frame_s_ = 0;               ///< simulated time of the last frame

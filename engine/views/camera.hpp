@@ -12,6 +12,13 @@ struct CameraView {
   double fov_y_deg = 40;       ///< vertical field of view
 };
 
+/// A small change of a camera: pictures with different ones are averaged.
+struct CameraOffset {
+  double x_px = 0, y_px = 0;     ///< of the points that pixels show, right and down, pixels
+  double right_m = 0, up_m = 0;  ///< of the eye within its lens, m; what is at `focus_m` stays where it is in the picture
+  double focus_m = 1;            ///< along the view direction, m, above 0
+};
+
 /// Unit vectors of a camera's picture, right-handed: right x up points to the viewer.
 struct CameraBasis {
   Double3 right = {1, 0, 0};

@@ -17,7 +17,7 @@
 namespace rill {
 
 /// A camera as a FluidView: reversed depth without a far plane. `origin` is the eye, so that a scene far from zero loses nothing.
-FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, double spacing);
+FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, double spacing, const CameraOffset& offset = {});
 
 class Scenery {
  public:

@@ -56,6 +56,10 @@ TEST(CommandLine, HelpListsOptionsAndExamples) {
                              "--play",
                              "--orbit",
                              "--exposure",
+                             "--samples",
+                             "--shutter",
+                             "--aperture",
+                             "--focus",
                              "--exr",
                              "--video",
                              "Examples:",
@@ -91,6 +95,21 @@ TEST(CommandLine, ErrorsNameOptionAndExpectedValue) {
     expectRefused({"scene.json", "--exposure", bad}, {"--exposure", "expected a number of stops from -10 to 10"});
   expectRefused({"scene.json", "--exposure", "1", "--no-images"}, {"--exposure", "--no-images without --video", "images to expose"});
   expectRefused({"scene.json", "--exposure", "1", "--view", "depth"}, {"--exposure", "the view depth has none", "expected --view final"});
+  for (const char* bad : {"0", "257", "-1", "2.5", "many", ""})
+    expectRefused({"scene.json", "--samples", bad}, {"--samples", "expected a whole number from 1 to 256"});
+  for (const char* bad : {"-1", "361", "nan", "half", ""})
+    expectRefused({"scene.json", "--shutter", bad}, {"--shutter", "expected a number of degrees from 0 to 360"});
+  for (const char* bad : {"0", "0.4", "65", "nan", "f/2.8", ""})
+    expectRefused({"scene.json", "--aperture", bad}, {"--aperture", "expected an f-number from 0.5 to 64"});
+  for (const char* bad : {"0", "-1", "inf", "near", ""})
+    expectRefused({"scene.json", "--aperture", "2.8", "--focus", bad}, {"--focus", "expected a distance from 0.001 to 1000000 m"});
+  expectRefused({"scene.json", "--focus", "2"}, {"--focus", "no --aperture", "expected both"});
+  for (const char* other : {"--shutter", "--aperture"})
+    expectRefused({"scene.json", "--samples", "1", other, "4"}, {"--samples", "found 1 with " + std::string(other), "at least 2"});
+  for (const char* option : {"--samples", "--shutter", "--aperture"}) {
+    expectRefused({"scene.json", option, "4", "--no-images"}, {option, "--no-images without --video", "images to draw"});
+    expectRefused({"scene.json", option, "4", "--view", "depth"}, {option, "the view depth has no film effects", "expected --view final"});
+  }
   expectRefused({"scene.json", "--export", "obj"}, {"--export", "expected ply, mesh, vtk or poses"});
   expectRefused({"scene.json", "--export", "mesh", "--mesh-format", "stl"}, {"--mesh-format", "\"stl\"", "ply, obj, glb or vtp"});
   expectRefused({"scene.json", "--export", "mesh", "--mesh-cell", "0.1"}, {"--mesh-cell", "0.1", "0.25 to 1"});

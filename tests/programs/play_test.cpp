@@ -53,6 +53,34 @@ TEST(Play, AcceptsPositionsOnly) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_00001.png"));
 }
 
+TEST(Play, BlursByTheVelocitiesOfTheFiles) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kScene).string();
+  const std::vector<std::string> film{"--shutter", "360", "--samples", "8", "--fps", "10", "--size", "240x135", "--quiet"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), scene);
+    arguments.insert(arguments.end(), film.begin(), film.end());
+    const Outcome outcome = capture(arguments, folder.string());
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  };
+  run({"--frames", "4", "--export", "ply", "--out", "run"});
+  run({"--play", "run", "--out", "played"});
+  const Outcome sharp = capture({scene, "--play", "run", "--fps", "10", "--size", "240x135", "--out", "sharp", "--quiet"}, folder.string());
+  ASSERT_EQ(sharp.code, 0) << sharp.err;
+  const Picture simulated = readPicture(folder / "run/frame_00003.png"), played = readPicture(folder / "played/frame_00003.png");
+  const double blur = distance(simulated, readPicture(folder / "sharp/frame_00003.png")).mean;
+  EXPECT_GT(blur, 0.0005);
+  EXPECT_LE(distance(simulated, played).mean, 0.2 * blur);
+
+  std::filesystem::create_directories(folder / "in");
+  write(folder / "in/a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n");
+  const Outcome without =
+      capture({scene, "--play", "in", "--shutter", "180", "--samples", "2", "--size", "64x36", "--out", "out"}, folder.string());
+  EXPECT_EQ(without.code, 0) << without.err;
+  EXPECT_NE(without.err.find("warning: --shutter: \"in/a.ply\" has no velocities (vx, vy, vz)"), std::string::npos) << without.err;
+}
+
 // After a full turn the image is the same again, and different in between.
 TEST(Play, CameraOrbits) {
   const TemporaryFolder folder;

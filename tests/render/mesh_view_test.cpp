@@ -39,7 +39,7 @@ class MeshView : public GpuTest {
     EXPECT_TRUE(start) << start.error().message;
     auto fluid = Fluid::create(device(), {.scene = &scene_, .particles = &*start});
     EXPECT_TRUE(fluid) << fluid.error().message;
-    offline::Painter painter(scene_, *start, 0);
+    offline::Painter painter(scene_, *start);
     const auto made = painter.prepare(device(), view, kAcross, kDown);
     EXPECT_TRUE(made) << made.error().message;
     if (!fluid || !made) return {};

@@ -38,7 +38,7 @@ class SpareRoom : public GpuTest {
     const auto start = makeParticles(scene_);
     EXPECT_TRUE(start);
     auto fluid = Fluid::create(device(), {.scene = &scene_, .particles = &*start, .capacity = capacity});
-    offline::Painter painter(scene_, *start, 0);
+    offline::Painter painter(scene_, *start);
     EXPECT_TRUE(fluid && painter.prepare(device(), view, kWidth, kHeight));
     FluidState state = fluid->addTo(graph, {});
     change(state);

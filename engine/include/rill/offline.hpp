@@ -30,10 +30,27 @@ namespace rill::offline {
 /// Limit of Options::exposure_stops, in both directions.
 inline constexpr double kMaxExposure_stops = 10;
 
+inline constexpr uint32_t kMaxFilmSamples = 256;
+inline constexpr uint32_t kFilmSamples = 32;  ///< of an effect that says none
+inline constexpr double kMaxShutter_s = 1000;
+inline constexpr double kMinAperture = 0.5, kMaxAperture = 64;
+inline constexpr double kMinFocus_m = 1e-3, kMaxFocus_m = 1e6;
+
+/// Effects of a camera on the view `final`: the mean of several pictures in linear light. They do not affect the simulation.
+struct Film {
+  uint32_t samples = 0;  ///< pictures, each at another point of the pixels, 1 (no effect) to 256; 0: 32 with an effect below, else 1
+  /// Time that the shutter is open, half before and half after that of the picture, s, 0 (an instant) to 1000. Particles and bodies move
+  /// by their velocities, solids with keyframes and the camera as they do.
+  double shutter_s = 0;
+  double aperture = 0;  ///< f-number of a lens before a sensor 24 mm high, 0.5 to 64; 0: a pinhole, with which all is sharp
+  double focus_m = 0;   ///< distance along the view direction that is sharp, 0.001 to 1e6; 0: that of the camera's target
+};
+
 /// Options of Simulation and Player.
 struct Options {
   double orbit_degPerS = 0;                  ///< angular speed of the camera around its target, counter-clockwise seen from above
   double exposure_stops = 0;                 ///< of the view `final`: each stop doubles the light before the tone curve; -10 to 10
+  Film film = {};                            ///< super-sampling, motion blur, depth of field
   std::string device = {};                   ///< a name, a part that no other has, or an index; empty: the most capable device
   std::string deviceOrigin = {};             ///< what messages about `device` begin with, such as the user's option; may be empty
   std::vector<Override> overrides = {};      ///< applied to the scene
@@ -80,7 +97,8 @@ struct Image {
   std::vector<uint8_t> rgba = {};
 };
 
-/// An image in linear light, before exposure and tone curve: RGBA of IEEE half floats (binary16), top row first. Not antialiased.
+/// An image in linear light, before exposure and tone curve: RGBA of IEEE half floats (binary16), top row first. Antialiased
+/// by Options::film alone.
 struct LinearImage {
   uint32_t width = 0, height = 0;
   std::vector<uint16_t> rgba = {};
@@ -237,7 +255,7 @@ class Simulation {
 class Player {
  public:
   /// BadInput for a scene without a spacing; other errors as Simulation::open(). Uses Options::device, validation,
-  /// orbit_degPerS and exposure_stops.
+  /// orbit_degPerS, exposure_stops and film.
   static Expected<Player> open(Scene scene, const Options& options = {});
   ~Player();
   Player(Player&&) noexcept;
