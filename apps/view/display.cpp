@@ -51,7 +51,9 @@ Expected<void> Display::paint(Session& session, std::string_view view, const Cam
   auto frame = context_.beginFrame();
   if (!frame) return frame.error();
   picture_.reset();
-  const BufferRef drawn = session.painter().addTo(picture_, session.runner().present(picture_), view, eye, width, height, time_s);
+  const FluidState fluid = session.runner().present(picture_);
+  const BufferRef drawn = session.painter().addTo(picture_, fluid, view, eye, width, height, time_s, offline::PixelKind::Display,
+                                                  session.runner().presentWhitewater(picture_, fluid));
   BufferRef shown = importWhole(picture_, "shown picture", shown_);
   picture_.pass("show", [&](Pass& pass) {
     pass.read(drawn, Use::CopySource);

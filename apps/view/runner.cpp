@@ -9,6 +9,7 @@
 #include "fluid/snapshot.hpp"
 #include "offline/readout.hpp"
 #include "offline/state_hash.hpp"
+#include "offline/whitewater_run.hpp"
 #include "shape/mass.hpp"
 #include "view/clock.hpp"
 
@@ -63,9 +64,24 @@ Expected<Fluid> Runner::fluidOf(const Scene& scene, const ParticleSet& start, co
 Expected<void> Runner::makeFluid(const FluidSnapshot* from) {
   auto fluid = fluidOf(scene_, *start_, from);
   if (!fluid) return fluid.error();
+  auto white = whitewaterOf(*fluid, scene_, *start_, nullptr);
+  if (!white) return white.error();
   fluid_ = std::move(*fluid);
+  white_ = *std::move(white);
   advances_.setFluid(*fluid_, scene_);
   return {};
+}
+
+/// `from`: the state to continue from; null: none yet.
+Expected<std::optional<Whitewater>> Runner::whitewaterOf(const Fluid& fluid, const Scene& scene, const ParticleSet& start,
+                                                         const WhitewaterSnapshot* from) {
+  if (!scene.look.whitewater || fluid.capacity() == 0) return std::optional<Whitewater>{};
+  WhitewaterDesc desc = offline::whitewaterOf(scene, start, fluid.capacity());
+  desc.snapshot = from;
+  if (from && white_) desc.parcel_m3 = white_->desc().parcel_m3;  // added fluid does not change what is there
+  auto made = Whitewater::create(context_.device(), desc);
+  if (!made) return Error{made.error().kind, "look.whitewater: " + made.error().message};
+  return std::optional(*std::move(made));
 }
 
 template <class Declare>
@@ -84,7 +100,7 @@ Expected<void> Runner::advancePiece(double budget_s, bool more) {
   if (advances_.inFlight() == 0)
     if (auto idle = context_.wait(); !idle) return idle;  // rendering is not part of the measured time
   const offline::Advances::Work work{.advance_s = Clock::kStep,
-                                     .advances = advances_.ended() + (more ? 2 : 1),
+                                     .advances = advances_.ended() + (more && !white_ ? 2 : 1),  // whitewater moves between steps
                                      .budget_s = budget_s,
                                      .targets = targets_,
                                      .pulls = pulls_,
@@ -107,7 +123,28 @@ Expected<void> Runner::finishPiece() {
            .seconds = done.seconds};
   shown_ = log_;
   ++steps_;
-  return {};
+  return white_ ? stepWhitewater() : Expected<void>();
+}
+
+/// For the step that has ended.
+Expected<void> Runner::stepWhitewater() {
+  if (auto settled = settle(); !settled) return settled;
+  return run(whiteGraph_, [&](Graph& graph) {
+    static_cast<void>(white_->addTo(graph, fluid_->addTo(graph, {}), Clock::kStep, offline::gravityAt(scene_, time_s())));
+  });
+}
+
+offline::DrawnWhitewater Runner::presentWhitewater(Graph& graph, const FluidState& fluid) {
+  if (!white_) return {};
+  return {white_->addTo(graph, fluid, 0), offline::drawnRadius(white_->desc())};
+}
+
+Expected<WhitewaterSnapshot> Runner::whitewater() {
+  if (!white_) return WhitewaterSnapshot{};
+  offline::WhitewaterTickets tickets;
+  auto ran = run(whiteGraph_, [&](Graph& graph) { tickets = offline::whitewaterReadout(graph, white_->addTo(graph, {}, 0)); });
+  if (!ran) return ran.error();
+  return offline::collectWhitewater(whiteGraph_, tickets);
 }
 
 Expected<void> Runner::settle() {
@@ -160,7 +197,12 @@ Expected<FluidSnapshot> Runner::snapshot() {
 Expected<void> Runner::continueFrom(Scene scene, std::shared_ptr<const ParticleSet> start, FluidSnapshot from) {
   auto fluid = fluidOf(scene, *start, hasState(from) ? &from : nullptr);
   if (!fluid) return fluid.error();
+  const auto now = whitewater();
+  if (!now) return now.error();
+  auto white = whitewaterOf(*fluid, scene, *start, white_ && hasState(from) ? &*now : nullptr);
+  if (!white) return white.error();
   fluid_ = std::move(*fluid);
+  white_ = *std::move(white);
   scene_ = std::move(scene);
   advances_.setFluid(*fluid_, scene_);
   start_ = std::move(start);
@@ -311,8 +353,6 @@ Expected<std::vector<Float3>> Runner::positions() {
 std::vector<std::string> Runner::warnings() const {
   std::vector<std::string> all = start_->warnings;
   all.insert(all.end(), fluid_->warnings().begin(), fluid_->warnings().end());
-  if (scene_.look.whitewater)
-    all.push_back("look.whitewater: the viewer draws drops and thin sheets white instead; rill-capture simulates it");
   return all;
 }
 

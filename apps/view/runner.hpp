@@ -7,10 +7,12 @@
 
 #include "offline/advances.hpp"
 #include "offline/context.hpp"
+#include "offline/painter.hpp"
 #include "offline/pass_log.hpp"
 #include "rill/fluid.hpp"
 #include "rill/scene_io.hpp"
 #include "rill/snapshot.hpp"
+#include "rill/whitewater.hpp"
 #include "shape/pose.hpp"
 #include "views/bounds.hpp"
 
@@ -106,6 +108,10 @@ class Runner {
   /// Uploads the initial state, so that it can be drawn before the first step.
   Expected<void> begin();
   FluidState present(Graph& graph) const { return fluid_->present(graph); }
+  /// Whitewater of the last step, for the same graph; none unless the scene has look.whitewater.
+  offline::DrawnWhitewater presentWhitewater(Graph& graph, const FluidState& fluid);
+  /// The same on the host. Only between steps.
+  Expected<WhitewaterSnapshot> whitewater();
   /// Passes of the last step: runs, milliseconds if timed, and skipped passes with the reason.
   const offline::PassLog& log() const { return shown_; }
   void timePasses(bool enabled) {
@@ -134,6 +140,9 @@ class Runner {
   Expected<void> continueFrom(Scene scene, std::shared_ptr<const ParticleSet> start, FluidSnapshot from);
   Expected<Fluid> fluidOf(const Scene& scene, const ParticleSet& start, const FluidSnapshot* from);
   Expected<void> makeFluid(const FluidSnapshot* from);
+  Expected<std::optional<Whitewater>> whitewaterOf(const Fluid& fluid, const Scene& scene, const ParticleSet& start,
+                                                   const WhitewaterSnapshot* from);
+  Expected<void> stepWhitewater();
   void keep(FluidSnapshot now);
 
   offline::Context& context_;
@@ -146,7 +155,8 @@ class Runner {
   std::vector<EmitterTarget> emitters_;  ///< for the next step that begins
   std::vector<double> flows_;
   uint64_t tapRoom_ = 0;
-  Graph graph_, measureGraph_;
+  std::optional<Whitewater> white_;  ///< with Look::whitewater
+  Graph graph_, measureGraph_, whiteGraph_;
   offline::Advances advances_;
   uint64_t steps_ = 0;
   bool timed_ = true;

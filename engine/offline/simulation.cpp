@@ -288,7 +288,7 @@ class Simulation::Impl {
 
   PictureRun::Content drawn(Graph& graph) {
     PictureRun::Content content{.fluid = fluid_->addTo(graph, {})};
-    if (white_) content.white = {white_->addTo(graph, content.fluid, 0), std::cbrt(white_->desc().parcel_m3 * 3 / (4 * std::numbers::pi))};
+    if (white_) content.white = {white_->addTo(graph, content.fluid, 0), drawnRadius(white_->desc())};
     return content;
   }
 

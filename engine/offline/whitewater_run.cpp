@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 namespace rill::offline {
 namespace {
@@ -29,6 +30,8 @@ WhitewaterDesc whitewaterOf(const Scene& scene, const ParticleSet& particles, ui
           .origin = particles.origin,
           .seed = scene.seed};
 }
+
+double drawnRadius(const WhitewaterDesc& desc) { return std::cbrt(desc.parcel_m3 * 3 / (4 * std::numbers::pi)); }
 
 Double3 gravityAt(const Scene& scene, double time_s) {
   Double3 gravity = scene.gravity;

@@ -11,6 +11,9 @@ namespace rill::offline {
 /// `particles`: what the fluid has at the start.
 WhitewaterDesc whitewaterOf(const Scene& scene, const ParticleSet& particles, uint32_t capacity);
 
+/// Radius of a ball of a diffuse particle's volume, m: its size in pictures.
+double drawnRadius(const WhitewaterDesc& desc);
+
 /// Gravity at a time.
 Double3 gravityAt(const Scene& scene, double time_s);
 

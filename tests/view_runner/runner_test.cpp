@@ -68,6 +68,40 @@ TEST_F(ViewRunnerTest, StepsEqualCaptureBitwise) {
   EXPECT_GT(maxPieces, 1u) << "some of them were cut";
 }
 
+// Foam, spray and bubbles are those of a capture, and survive a change of the fluid.
+TEST_F(ViewRunnerTest, WhitewaterEqualsCaptureBitwise) {
+  constexpr uint64_t kSteps = 30;
+  const std::vector<Override> changes{{"rill", "0.2"}, {"look.whitewater", "true"}};
+  auto captured = offline::Simulation::open(scene(changes));
+  ASSERT_TRUE(captured) << captured.error().message;
+  for (uint64_t k = 0; k < kSteps; ++k) ASSERT_TRUE(captured->advance(1.0 / 60));
+  const auto stats = captured->stats();
+  ASSERT_TRUE(stats);
+  const auto expected = captured->checkpoint();
+  ASSERT_TRUE(expected);
+  ASSERT_GT(expected->whitewater.place.size(), 100u);
+  auto runner = Runner::create(context(), scene(changes));
+  ASSERT_TRUE(runner) << runner.error().message;
+  while ((*runner)->steps() < kSteps) ASSERT_TRUE((*runner)->advancePiece(0.004, (*runner)->steps() + 1 < kSteps));
+  const auto white = (*runner)->whitewater();
+  ASSERT_TRUE(white) << white.error().message;
+  EXPECT_EQ(*white, expected->whitewater);
+  const auto hash = (*runner)->hash();
+  ASSERT_TRUE(hash);
+  EXPECT_EQ(*hash, stats->stateHash);
+
+  Scene changed = (*runner)->scene();
+  changed.fluid.viscosity = 0.01;
+  ASSERT_TRUE((*runner)->change(changed));
+  const auto kept = (*runner)->whitewater();
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(*kept, *white);
+  auto restarted = Runner::create(context(), scene());
+  ASSERT_TRUE(restarted);
+  ASSERT_TRUE((*restarted)->step());
+  EXPECT_TRUE((*restarted)->whitewater()->counts.empty()) << "absent without look.whitewater";
+}
+
 TEST_F(ViewRunnerTest, QueuedStepsEqualCaptureBitwise) {
   constexpr uint64_t kSteps = 9;
   auto captured = offline::Simulation::open(scene());

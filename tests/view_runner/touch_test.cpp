@@ -91,7 +91,7 @@ TEST_F(TouchTest, DrivenSolidIsDrawnAtItsPose) {
   translate(still.solids[1], moved);
   still.solids[1].driven = 0;
   const ParticleSet start = runner().start();
-  offline::Painter other(still, start, 0);
+  offline::Painter other(still, start);
   for (const char* view : {"final", "particles"}) {
     ASSERT_TRUE(session().painter().prepare(device(), view, 320, 180));
     ASSERT_TRUE(other.prepare(device(), view, 320, 180));
