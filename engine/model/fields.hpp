@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "core/look_names.hpp"
 #include "model/field.hpp"
 #include "model/flow_fields.hpp"
 #include "model/fluid_fields.hpp"
@@ -13,7 +14,6 @@
 namespace rill::model {
 
 inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+y", "-z", "+z"};  // bits of SideMask
-inline constexpr std::array<std::string_view, 5> kPresetWords{"water", "milk", "ink", "clay", "pool"};
 inline constexpr std::array<std::string_view, 3> kSkyWords{"studio", "day", "sunset"};
 inline constexpr std::array<std::string_view, 2> kStageWords{"grid", "tank"};
 inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
@@ -240,7 +240,7 @@ struct Table<Look> {
   static constexpr std::string_view about = "Appearance of rendered pictures";
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
-      Field{Info{.key = "preset", .help = "appearance of the fluid: absorption, scattering and roughness", .words = kPresetWords},
+      Field{Info{.key = "preset", .help = "appearance of the fluid: absorption, scattering and roughness", .words = kLookNames},
             &Look::preset},
       Field{Info{.key = "surface",
                  .help = "surface reconstruction; auto: planes, the most accurate method in rill-bench render",

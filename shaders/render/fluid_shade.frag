@@ -142,7 +142,7 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
     ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
   }
   const vec3 through = exp(-look.absorption.rgb * min(inside, ray_length));
-  const vec3 body = sceneBilinear(hit_pixel, z) * through + look.scatter.rgb * scattered * (1.0 - through);
+  const vec3 body = sceneBilinear(hit_pixel, z) * through + (look.scatter.rgb * scattered + look.emission.rgb) * (1.0 - through);
   // Multiple scattering leaves no side dark.
   const float facing_sun = 0.5 + 0.5 * dot(worldDirection(mean_normal.direction), look.light.xyz);
   return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + sunlight() * facing_sun * facing_sun, white);
@@ -180,7 +180,7 @@ void main() {
   const float widened = 1.0 / (1.0 + 0.25 * look.finish.x * spread * spread);
   float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x * widened) * look.light.w * widened;
 #ifdef OPAQUE
-  const vec3 body = look.scatter.rgb * (ambient + sunlight() * lit);
+  const vec3 body = look.scatter.rgb * (ambient + sunlight() * lit) + look.emission.rgb;
   const vec3 mirror = skyColor(mirrored, sun, spread);
 #else
   const MeanNormal mean_normal = meanNormalAt(vec2(pixel) + 0.5, z, normal, sight);

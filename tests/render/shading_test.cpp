@@ -126,6 +126,40 @@ TEST_F(FlatPool, AbsorptionFollowsBeerLambert) {
     }
 }
 
+// Kirchhoff's law: emissivity is absorptance.
+TEST_F(FlatPool, EmitsAsMuchAsItAbsorbs) {
+  const double rates[] = {9, 2.5, 0.5}, glow[] = {2, 0.5, 0.25};
+  for (const bool opaque : {false, true})
+    for (const double angle : {0.0, 40 * kDegree}) {
+      pool(0.3);
+      FluidLook look = clear();
+      look.opaque = opaque;
+      look.absorption = {9, 2.5f, 0.5f};
+      const std::array<float, 4> black{0, 0, 0, 1};
+      const Color dark = mean(seen(parallel(angle), look, black));
+      look.emission = {2, 0.5f, 0.25f};
+      const Color bright = mean(seen(parallel(angle), look, black));
+      const double meters = 0.3 / std::cos(angle), left = 1 - fresnel(angle, double{look.refractionIndex});
+      for (size_t c = 0; c < 3; ++c) {
+        const double emitted = left * glow[c] * (opaque ? 1 : 1 - std::exp(-rates[c] * meters));
+        EXPECT_NEAR(bright[c] - dark[c], emitted, 0.02 * emitted) << opaque << " channel " << c;
+      }
+    }
+}
+
+// Deep water below white light, by the reflectances that its preset gives for each color.
+TEST_F(FlatPool, PresetsHaveTheirColors) {
+  const auto body = [&](std::string_view name) { return fluidLook(name)->scatter; };
+  for (const std::string_view name : fluidLooks()) ASSERT_TRUE(fluidLook(name)) << name;
+  EXPECT_FALSE(fluidLook("tar"));
+  EXPECT_TRUE(body("pool").z > body("pool").y && body("pool").y > body("pool").x) << "blue";
+  EXPECT_TRUE(body("sea").y > body("sea").z && body("sea").z > body("sea").x) << "green";
+  EXPECT_TRUE(body("river").x > body("river").y && body("river").y > 2 * body("river").z) << "brown";
+  EXPECT_TRUE(body("honey").x > 2 * body("honey").y && body("honey").y > 2 * body("honey").z) << "amber";
+  EXPECT_GT(fluidLook("lava")->emission.x, 5 * fluidLook("lava")->emission.y) << "red";
+  for (const std::string_view name : {"water", "milk", "clay", "sea"}) EXPECT_EQ(fluidLook(name)->emission.x, 0) << name;
+}
+
 TEST_F(FlatPool, MatchesFormulaAtAnyAngle) {
   pool(0.4);
   for (const double degrees : {0.0, 20.0, 45.0, 65.0}) {

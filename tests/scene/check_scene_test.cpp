@@ -171,7 +171,8 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
       {[](Scene& s) { s.look.sky = "dya"; },
        "look.sky: found the string \"dya\", expected one of \"studio\", \"day\", \"sunset\"; did you mean \"day\"?"},
       {[](Scene& s) { s.look.preset = "watr"; },
-       "look.preset: found the string \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\", \"pool\"; did you mean \"water\"?"},
+       "look.preset: found the string \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\", \"pool\", \"sea\", \"river\", "
+       "\"honey\", \"lava\"; did you mean \"water\"?"},
   };
   for (const Change& change : changes) {
     Scene scene = tank();

@@ -70,15 +70,18 @@ struct FluidLook {
   SurfaceMethod surface = SurfaceMethod::Auto;
   Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer-Lambert law
   Float3 scatter{0.02f, 0.13f, 0.19f};    ///< color of white light scattered by thick fluid; of an opaque fluid its color
-  bool opaque = false;                    ///< nothing is visible through the fluid, and its thickness is not computed
-  float refractionIndex = 1.333f;         ///< 1 to 10
-  float highlight = 900;                  ///< exponent of the sun's specular reflection
-  float sun = 18;                         ///< radiance of the sun's reflection relative to that of a white surface in its light
-  std::optional<Float3> toSun = {};       ///< direction, of any length; empty: of the environment's sun, otherwise -0.30, 0.84, 0.45
-  float aeration = 0.3f;                  ///< strength of whitewater (spray and breaking crests), 0 (none) to 1; ignored if opaque
+  /// Light of the fluid's own where it is thick, relative to a white surface in the sky's light; thin fluid has as little of it as it
+  /// absorbs (Kirchhoff's law). It does not light the scene.
+  Float3 emission{0, 0, 0};
+  bool opaque = false;               ///< nothing is visible through the fluid, and its thickness is not computed
+  float refractionIndex = 1.333f;    ///< 1 to 10
+  float highlight = 900;             ///< exponent of the sun's specular reflection
+  float sun = 18;                    ///< radiance of the sun's reflection relative to that of a white surface in its light
+  std::optional<Float3> toSun = {};  ///< direction, of any length; empty: of the environment's sun, otherwise -0.30, 0.84, 0.45
+  float aeration = 0.3f;             ///< strength of whitewater (spray and breaking crests), 0 (none) to 1; ignored if opaque
 };
 
-/// The preset of a scene's `look.preset`: water, milk, ink, clay or pool. Empty for another name.
+/// The preset of a scene's `look.preset`: one of fluidLooks(). Empty for another name.
 RILL_API std::optional<FluidLook> fluidLook(std::string_view preset);
 /// The method of a scene's `look.surface`. Empty for another name.
 RILL_API std::optional<SurfaceMethod> surfaceMethod(std::string_view name);
