@@ -112,7 +112,10 @@ TEST(FilmPicture, MovingBallBlursOverItsWay) {
   Simulation without = opened(empty), sharp = opened(ball, {.samples = 32}), blurred = opened(ball, {.shutter_s = open});
   const Light background = lightOf(without, 256, 128), before = lightOf(sharp, 256, 128), after = lightOf(blurred, 256, 128);
   const double wider = spread(after, background) - spread(before, background);
-  EXPECT_NEAR(std::sqrt(12 * wider / (1 - 1.0 / (kFilmSamples * kFilmSamples))), way, 0.03 * way);
+  const double measured = std::sqrt(12 * wider / (1 - 1.0 / (kFilmSamples * kFilmSamples)));
+  EXPECT_NEAR(measured, way, 0.03 * way);
+  RecordProperty("blur and way in pixels", std::to_string(measured) + " " + std::to_string(way));
+  RecordProperty("light with and without blur", std::to_string(after.sum()) + " " + std::to_string(before.sum()));
   EXPECT_NEAR(after.sum() - background.sum(), before.sum() - background.sum(), 0.02 * std::abs(before.sum() - background.sum()));
   const auto shown = blurred.render("final", 256, 128);
   ASSERT_TRUE(shown) << shown.error().message;
@@ -179,6 +182,8 @@ TEST(FilmPicture, OutOfFocusBallIsBlurredByTheCircleOfConfusion) {
     const double focal = 1 / (1 / image + 1 / focus);
     const double circle = focal / 0.5 * std::abs(4 - focus) / 4 * focal / (focus - focal) / 0.024 * kSide;
     const double wider = widthOf({.samples = 64, .aperture = 0.5, .focus_m = focus}) - sharp;
+    RecordProperty("circle at focus " + std::to_string(int(focus)) + ", formula, pixels",
+                   std::to_string(std::sqrt(16 * wider)) + " " + std::to_string(circle));
     EXPECT_NEAR(std::sqrt(16 * wider), circle, 0.06 * circle) << focus;  // a disc's variance along an axis is its diameter squared over 16
   }
 }
