@@ -264,7 +264,11 @@ struct Table<Look> {
       Field{Info{.key = "whitewater",
                  .help = "true: foam, spray and bubbles are simulated as diffuse particles; false: drops and thin sheets are drawn white",
                  .since = "0.2"},
-            &Look::whitewater}};
+            &Look::whitewater},
+      Field{Info{.key = "caustics",
+                 .help = "true: the fluid's surface refracts sunlight onto the floor and solids; false: fluid casts a plain shadow",
+                 .since = "0.2"},
+            &Look::caustics}};
 };
 
 template <>

@@ -96,17 +96,18 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
                                 .depthWrite = true};
   };
   const std::string around = out->hasGround() ? (solids ? "ground_solids" : "ground") : "sky", sky = environment ? "_environment" : "";
-  const std::string groundShader = "views/scenery_" + around + sky + "_fragment", solidShader = "views/scenery_solid" + sky + "_fragment";
-  const std::string meshShader = "views/scenery_mesh" + sky + "_fragment";
-  GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", groundShader);
-  ground.depthCompare = VK_COMPARE_OP_ALWAYS;
+  if (scene.look.caustics && (solids || out->hasGround())) {
+    auto caustics = Caustics::create(device, solids);
+    if (!caustics) return caustics.error();
+    out->caustics_ = *caustics;
+  }
   GraphicsPipelineDesc edges = desc("views/scenery_edges_vertex", "views/scenery_edges_fragment");
   edges.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   edges.depthWrite = false;
   edges.blend = Blend::Premultiplied;
   GraphicsPipelineDesc over = edges;
   over.fragment = "views/scenery_edges_over_fluid_fragment";
-  std::vector<Wanted> all{{out->ground_, ground}, {out->edges_, edges}, {out->edgesOverFluid_, over}};
+  std::vector<Wanted> all{{out->edges_, edges}, {out->edgesOverFluid_, over}};
   if (!out->buffers_.host.lines.empty()) {
     GraphicsPipelineDesc lines = edges, linesOver = over;
     lines.vertex = linesOver.vertex = "views/scenery_lines_vertex";
@@ -118,15 +119,26 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   light.colors = {};
   light.depth = kShadowFormat;
   light.depthCompare = VK_COMPARE_OP_LESS;
-  if (out->hasRayCast_) {
-    all.push_back({out->solid_, desc("views/scenery_solid_vertex", solidShader)});
-    all.push_back({out->solidLight_, light});
-  }
+  if (out->hasRayCast_) all.push_back({out->solidLight_, light});
   if (out->hasMeshes()) {
     light.vertex = "views/scenery_mesh_light_vertex";
     light.fragment = {};
-    all.push_back({out->mesh_, desc("views/scenery_mesh_vertex", meshShader)});
     all.push_back({out->meshLight_, light});
+  }
+  std::string names[2][3];
+  for (const bool refracted : {false, true}) {
+    if (refracted && !out->caustics_) continue;
+    const std::string rest = sky + (refracted ? "_caustics" : "") + "_fragment";
+    auto& [groundShader, solidShader, meshShader] = names[refracted];
+    Drawing& drawing = refracted ? out->refracted_ : out->plain_;
+    groundShader = "views/scenery_" + around + (out->hasGround() ? rest : sky + "_fragment");
+    solidShader = "views/scenery_solid" + rest;
+    meshShader = "views/scenery_mesh" + rest;
+    GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", groundShader);
+    ground.depthCompare = VK_COMPARE_OP_ALWAYS;
+    all.push_back({drawing.ground, ground});
+    if (out->hasRayCast_) all.push_back({drawing.solid, desc("views/scenery_solid_vertex", solidShader)});
+    if (out->hasMeshes()) all.push_back({drawing.mesh, desc("views/scenery_mesh_vertex", meshShader)});
   }
   for (const Wanted& wanted : all) {
     auto made = graphicsPipeline(device, wanted.desc);
@@ -137,6 +149,30 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
 }
 
 Float3 Scenery::toSun() const { return xyz(buffers_.host.scene.light_to); }
+
+SunView Scenery::sunView() const {
+  const particle_view::SceneRecord& scene = buffers_.host.scene;
+  const auto wide = [](const Float4& v) { return Double3{double{v.x}, double{v.y}, double{v.z}}; };
+  SunView view;
+  view.origin = buffers_.host.origin;
+  view.u = wide(scene.light_u);
+  view.v = wide(scene.light_v);
+  view.toSun = wide(scene.light_to);
+  view.first_u = double{scene.light_u.w};
+  view.first_v = double{scene.light_v.w};
+  view.nearest = double{scene.light_to.w};
+  view.texel = double{scene.light_texel.x};
+  view.depths = double{scene.light_texel.y};
+  view.width = scene.counts.y;
+  view.height = scene.counts.z;
+  view.floor = hasGround();
+  if (hasEdges()) {
+    view.low = wide(scene.domain_min);
+    view.high = wide(scene.domain_max);
+    view.closed = scene.counts.w;
+  }
+  return view;
+}
 
 /// The light map's frame as an orthographic camera, for positions relative to `origin`.
 SurfacePush Scenery::lightPush(const FluidState& fluid, const Double3& origin) const {
@@ -188,12 +224,13 @@ ImageRef Scenery::addSolidShadows(Graph& graph, BufferRef poses, const SceneMesh
 }
 
 /// The solids into the targets; `lit` is what their shaders read.
-void Scenery::addSolids(Graph& graph, SceneTargets& targets, const SurfacePush& camera, std::span<const Named> lit) const {
+void Scenery::addSolids(Graph& graph, SceneTargets& targets, const SurfacePush& camera, const Drawing& drawing,
+                        std::span<const Named> lit) const {
   if (hasRayCast_) {
     graph.pass("scenery solids", [&](Pass& pass) {
       targets.color = pass.write(targets.color, Use::ColorTarget);
       targets.depth = pass.write(targets.depth, Use::DepthTarget);
-      const Kernel kernel = bindNamed(pass, solid_, lit);
+      const Kernel kernel = bindNamed(pass, drawing.solid, lit);
       return [kernel, camera, count = static_cast<uint32_t>(buffers_.host.solids.size())](Commands& commands) {
         commands.draw(kernel, kSolidVertices, count, camera);
       };
@@ -208,9 +245,25 @@ void Scenery::addSolids(Graph& graph, SceneTargets& targets, const SurfacePush& 
   graph.pass("scenery meshes", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = bindNamed(pass, mesh_, lit);
+    const Kernel kernel = bindNamed(pass, drawing.mesh, lit);
     return [this, kernel, camera](Commands& commands) { meshes_.draw(commands, kernel, camera); };
   });
+}
+
+/// The map of caustics; empty where there are none.
+BufferRef Scenery::addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit,
+                               ImageRef lightDepth) const {
+  if (!caustics_) return {};
+  const SunView view = sunView();
+  const char* reason = fluid.capacity == 0                ? "there are no particles"
+                       : look.opaque                      ? "the look is opaque"
+                       : view.toSun.y < Caustics::kLowest ? "the sun is too low"
+                                                          : nullptr;
+  if (reason) {
+    graph.skipped("caustics rays", reason);
+    return {};
+  }
+  return caustics_->addTo(graph, fluid, look, view, shadow, unit, lightDepth).map;
 }
 
 SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
@@ -238,15 +291,18 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   } else {
     graph.skipped("scenery solids", "the scene has no solids");
   }
-  const Named lit[] = {{"scene", scene},  {"look", record},        {"fluid_shadow", shadow},     {"light_depth", lightDepth},
-                       {"placed", poses}, {"environment", texels}, {"mesh_parts", meshes.parts}, {"mesh_triangles", meshes.triangles}};
+  const BufferRef caustics = addCaustics(graph, fluid, look, shadow, double{light.unit}, lightDepth);
+  const Drawing& drawing = caustics == BufferRef{} ? plain_ : refracted_;
+  const Named lit[] = {{"scene", scene},      {"look", record},        {"fluid_shadow", shadow},     {"light_depth", lightDepth},
+                       {"placed", poses},     {"environment", texels}, {"mesh_parts", meshes.parts}, {"mesh_triangles", meshes.triangles},
+                       {"caustics", caustics}};
   graph.pass("scenery ground", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget, Load::Discard);
     targets.depth = pass.write(targets.depth, Use::DepthTarget, Load::Discard);
-    const Kernel kernel = bindNamed(pass, ground_, lit);
+    const Kernel kernel = bindNamed(pass, drawing.ground, lit);
     return [kernel, camera](Commands& commands) { commands.draw(kernel, 3, 1, camera); };
   });
-  if (solids) addSolids(graph, targets, camera, lit);
+  if (solids) addSolids(graph, targets, camera, drawing, lit);
   addLines(graph, "scenery outlines", targets, lines_, camera, time_s);
   if (tank_) tank_->addTo(graph, targets, camera, GlassTank::Part::Behind, record, texels);
   if (!hasEdges()) return targets;

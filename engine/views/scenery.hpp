@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "graph/shader_pass.hpp"
+#include "render/caustics.hpp"
 #include "render/environment.hpp"
 #include "render/surface.hpp"
 #include "rill/fluid_renderer.hpp"
@@ -21,7 +22,7 @@ FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, d
 
 class Scenery {
  public:
-  /// Scene and particles are not kept; `environment` outlives it, null: the sky of Rill's own.
+  /// Scene and particles are not kept; `environment` outlives it, null: the sky of Rill's own. Look::caustics of the scene counts.
   static Expected<std::unique_ptr<Scenery>> create(Device& device, const Scene& scene, const ParticleSet& particles,
                                                    const TargetFormats& formats, const Environment* environment = nullptr);
 
@@ -35,6 +36,8 @@ class Scenery {
                             BufferRef pixels, BufferRef texels = {}) const;
 
   Float3 toSun() const;
+  /// The light map's frame.
+  SunView sunView() const;
 
  private:
   surface::SurfacePush lightPush(const FluidState& fluid, const Double3& origin) const;
@@ -43,9 +46,16 @@ class Scenery {
   bool hasEdges() const { return hasDomain() && !tank_; }
 
   ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
+  BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit,
+                        ImageRef lightDepth) const;
   void addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,
                 const surface::SurfacePush& camera, double time_s, BufferRef pixels = {}) const;
-  void addSolids(Graph& graph, SceneTargets& targets, const surface::SurfacePush& camera, std::span<const Named> lit) const;
+  /// What is lit by the sun.
+  struct Drawing {
+    const GraphicsPipeline *ground = nullptr, *solid = nullptr, *mesh = nullptr;
+  };
+  void addSolids(Graph& graph, SceneTargets& targets, const surface::SurfacePush& camera, const Drawing& drawing,
+                 std::span<const Named> lit) const;
   bool hasMeshes() const { return !meshes_.empty(); }
 
   const Environment* environment_ = nullptr;
@@ -54,9 +64,11 @@ class Scenery {
   std::optional<GlassTank> tank_;  ///< with look.stage tank
   bool hasRayCast_ = false;        ///< there are solids that are not drawn as triangles
   SurfaceStage stage_;
-  const GraphicsPipeline *ground_ = nullptr, *solid_ = nullptr, *solidLight_ = nullptr, *edges_ = nullptr, *edgesOverFluid_ = nullptr;
+  std::optional<Caustics> caustics_;  ///< where the scene has them and something to fall on
+  Drawing plain_, refracted_;         ///< `refracted_`: with caustics
+  const GraphicsPipeline *solidLight_ = nullptr, *edges_ = nullptr, *edgesOverFluid_ = nullptr;
   const GraphicsPipeline *lines_ = nullptr, *linesOverFluid_ = nullptr;
-  const GraphicsPipeline *mesh_ = nullptr, *meshLight_ = nullptr;
+  const GraphicsPipeline* meshLight_ = nullptr;
 };
 
 }  // namespace rill

@@ -2,7 +2,12 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/sky.glsl"
 
+#ifdef CAUSTICS
+#include "render/caustics_records.h"
+layout(std430, set = 0, binding = 2) readonly buffer Caustics { uvec2 caustics[]; };  // of Caustics::addTo()
+#else
 layout(std430, set = 0, binding = 2) readonly buffer FluidShadow { uint fluid_shadow[]; };  // thickness towards the light, in look.finish.z
+#endif
 #ifdef SOLIDS
 layout(set = 0, binding = 3) uniform texture2D light_depth;  // of the solids, from the light
 #endif
@@ -11,6 +16,7 @@ vec2 lightTexel(vec3 p) {
   return vec2(dot(p, scene.light_u.xyz) - scene.light_u.w, dot(p, scene.light_v.xyz) - scene.light_v.w) / scene.light_texel.x;
 }
 
+#ifndef CAUSTICS
 // Weights of four texels along an axis for the mean over three texels at a position between the inner two; 0 outside of the map.
 vec4 shadowWeights(ivec4 texels, float part, int size) {
   const vec4 inside = vec4(greaterThanEqual(texels, ivec4(0))) * vec4(lessThan(texels, ivec4(size)));
@@ -37,6 +43,7 @@ vec3 throughFluid(vec3 p) {
   const float spread = 1.0 - exp(-meters / (2.0 * view.spacing));  // what the surface bends away
   return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-look.absorption.rgb * meters) * (1.0 - 0.45 * spread);
 }
+#endif
 
 // How much of the sun the solids let through, over nine texels.
 float pastSolids(vec3 p, float bias) {
@@ -60,3 +67,57 @@ float pastSolids(vec3 p, float bias) {
 #endif
 }
 
+// What of the sun's light reaches a point of a solid or of the floor, seen in pixels `width` m wide.
+#ifdef CAUSTICS
+#ifdef SOLIDS
+const uint kCausticLayers = 2u;
+#else
+const uint kCausticLayers = 1u;
+#endif
+
+// Light through the fluid, and the share that meets none, in a texel of a level of this size whose first one is `first`.
+vec4 causticTexel(ivec2 texel, uint first, ivec2 size, bool solid, float depth) {
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) return vec4(0.0, 0.0, 0.0, 1.0);
+  const uint own = first + uint(texel.y * size.x + texel.x);
+  const vec4 light = vec4(unpackHalf2x16(caustics[own].x), unpackHalf2x16(caustics[own].y));
+#ifdef SOLIDS
+  if (solid) {
+    const uvec2 packed = caustics[own + uint(size.x * size.y)];
+    const vec4 on_solid = vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
+    return vec4(on_solid.rgb, on_solid.a < depth ? light.a : 1.0);
+  }
+#endif
+  return light;
+}
+
+vec4 causticLevel(vec2 at, uint first, ivec2 size, bool solid, float depth) {
+  const ivec2 base = ivec2(floor(at));
+  const vec2 part = at - vec2(base);
+  const vec4 a = causticTexel(base, first, size, solid, depth);
+  const vec4 b = causticTexel(base + ivec2(1, 0), first, size, solid, depth);
+  const vec4 c = causticTexel(base + ivec2(0, 1), first, size, solid, depth);
+  const vec4 d = causticTexel(base + ivec2(1, 1), first, size, solid, depth);
+  return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
+}
+
+vec3 reaching(vec3 sun, vec3 p, float bias, float width, bool solid) {
+  const vec2 at = lightTexel(p);
+  const float past = pastSolids(p, bias);
+  if (any(lessThan(at, vec2(-2.0))) || any(greaterThan(at, vec2(scene.counts.yz) + 1.0))) return sun * past;
+  ivec2 size = int(kCausticFine) * ivec2(scene.counts.yz);
+  const float texels = max(width * float(kCausticFine) / scene.light_texel.x, 1.0);
+  const int level = min(int(log2(texels) + 0.5), int(kCausticLevels) - 1);
+  const float depth = scene.light_to.w - dot(p, scene.light_to.xyz) - 0.5 * view.spacing;
+  vec2 place = (at + 0.5) * float(kCausticFine) + 0.5;  // texels are half of one before those of photons
+  uint first = 0u;
+  RILL_LOOP for (int k = 0; k < level; ++k) {
+    first += kCausticLayers * uint(size.x * size.y);
+    size = (size + 1) / 2;
+    place *= 0.5;
+  }
+  const vec4 light = causticLevel(place - 0.5, first, size, solid, depth);
+  return sun * (solid ? past * (light.a + light.rgb) : past * light.a + light.rgb);
+}
+#else
+vec3 reaching(vec3 sun, vec3 p, float bias, float width, bool solid) { return sun * pastSolids(p, bias) * throughFluid(p); }
+#endif

@@ -69,7 +69,7 @@ void main() {
   if (inside && step <= 0.0) albedo = kTankFloor;
   if (inside && step > 0.0) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
-  const vec3 direct = sunlight() * max(sun.y, 0.0) * pastSolids(p, bias) * throughFluid(p);
+  const vec3 direct = reaching(sunlight() * max(sun.y, 0.0), p, bias, 0.5 * (width.x + width.y), false);
   const vec3 lit = albedo * (kAmbientShare * skyLight(vec3(0.0, 1.0, 0.0)) + kSunShare * direct);
   const float far = length(beyond) / (1.4 * max(max(extent.x, extent.y), 1e-6));
   color = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);

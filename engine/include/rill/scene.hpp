@@ -242,6 +242,7 @@ struct Look {
   std::string stage = "grid";              ///< around the fluid in final pictures: grid or tank
   std::filesystem::path environment = {};  ///< environment map; an absolute path once the scene is loaded; empty: the sky
   bool whitewater = false;                 ///< foam, spray and bubbles as diffuse particles; see rill/whitewater.hpp
+  bool caustics = false;                   ///< sunlight is refracted by the fluid's surface onto floor and solids
 };
 
 /// A scene: SI units, y up, right-handed.

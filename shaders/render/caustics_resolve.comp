@@ -1,0 +1,44 @@
+#version 460
+// The map's finest level from the sums. A texel: light through the fluid over the sun's, and of the floor the share of light that meets
+// no fluid; of SOLIDS, in a second layer, the depth where fluid begins.
+#extension GL_GOOGLE_include_directive : require
+#include "render/caustics.glsl"
+
+layout(local_size_x = kCausticGroup) in;
+layout(std430, set = 0, binding = 1) readonly buffer Sums { uint sums[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Smooth { vec4 smoothed[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer Caustics { uvec2 caustics[]; };
+
+// The mean of four texels, which leaves no pattern of photons two texels apart. The map's texels are half a texel before those of the sums.
+vec3 lightAt(ivec2 at, ivec2 size, uint layer) {
+  uvec3 sum[4];
+  for (int k = 0; k < 4; ++k) {
+    const ivec2 texel = max(at - ivec2(k & 1, k >> 1), ivec2(0));
+    const uint first = 3u * (layer + uint(texel.y * size.x + texel.x));
+    sum[k] = uvec3(sums[first], sums[first + 1u], sums[first + 2u]);
+  }
+  return min((vec3(sum[0]) + vec3(sum[1]) + vec3(sum[2]) + vec3(sum[3])) / (4.0 * sun.flux), vec3(6e4));
+}
+
+void main() {
+  const uint index = invocation();
+  const ivec2 size = int(kCausticFine) * ivec2(sun.width, sun.height);
+  if (index >= uint(size.x * size.y)) return;
+  const ivec2 texel = ivec2(index % uint(size.x), index / uint(size.x));
+  const vec2 at = vec2(texel) / float(kCausticFine) - 0.5, part = at - floor(at);
+  float covered = 0.0, begins = noDepth();
+  RILL_LOOP for (int k = 0; k < 4; ++k) {
+    const ivec2 corner = ivec2(k & 1, k >> 1), near = ivec2(floor(at)) + corner;
+    if (!inView(near)) continue;
+    const vec2 weight = mix(1.0 - part, part, vec2(corner));
+    const vec4 texel_near = smoothed[texelIndex(near)];
+    covered += weight.x * weight.y * texel_near.z;
+    begins = min(begins, texel_near.x);
+  }
+  const vec3 light = lightAt(texel, size, 0u);
+  caustics[index] = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, 1.0 - coverageOf(covered))));
+#ifdef SOLIDS
+  const vec3 on_solids = lightAt(texel, size, uint(size.x * size.y));
+  caustics[uint(size.x * size.y) + index] = uvec2(packHalf2x16(on_solids.rg), packHalf2x16(vec2(on_solids.b, clamp(begins, -6e4, 6e4))));
+#endif
+}

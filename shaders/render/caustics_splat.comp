@@ -1,0 +1,70 @@
+#version 460
+// Adds each photon's light to the texels of the map where it lands, over the width of its beam, in whole numbers whose sum is kept.
+// With SOLIDS the map has a second layer, for them.
+#extension GL_GOOGLE_include_directive : require
+#include "render/caustics.glsl"
+
+layout(local_size_x = kCausticGroup) in;
+layout(std430, set = 0, binding = 1) readonly buffer Landings { uvec4 landings[]; };
+layout(std430, set = 0, binding = 2) buffer Sums { uint sums[]; };
+
+const float kSunDisc = 0.0093;  // rad, of its diameter
+const float kWidest = 2.5;      // texels, half the width of a beam at most
+
+// To a neighbor's place on the same receiver; false if there is none.
+bool beamTo(ivec2 other, vec2 place, float way, ivec2 size, out vec2 beam) {
+  beam = vec2(0.0);
+  if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) return false;
+  const uvec4 next = landings[uint(other.y * size.x + other.x)];
+  beam = uintBitsToFloat(next.xy) - place;
+  return unpackHalf2x16(next.w).y * way > 0.0;
+}
+
+// How far apart neighbors land; without any, as far as they started.
+vec2 beamAlong(ivec2 own, ivec2 along, vec2 place, float way, ivec2 size) {
+  vec2 after, before;
+  const bool has_after = beamTo(own + along, place, way, size, after), has_before = beamTo(own - along, place, way, size, before);
+  return has_after ? after : has_before ? -before : vec2(along);
+}
+
+void main() {
+  const uint index = invocation();
+  const ivec2 size = int(kCausticFine) * ivec2(sun.width, sun.height);
+  if (index >= uint(size.x * size.y)) return;
+  const uvec4 own = landings[index];
+  const vec2 last = unpackHalf2x16(own.w);
+  if (last.y == 0.0) return;
+  const vec2 place = uintBitsToFloat(own.xy);
+  if (!all(lessThan(abs(place), vec2(1e5)))) return;
+  const vec3 counts = vec3(unpackHalf2x16(own.z), last.x) * sun.flux;
+  const ivec2 at = ivec2(index % uint(size.x), index / uint(size.x));
+  const vec2 beam = abs(beamAlong(at, ivec2(1, 0), place, last.y, size)) + abs(beamAlong(at, ivec2(0, 1), place, last.y, size));
+  const float disc = kSunDisc * abs(last.y);
+  // caustics_resolve.comp widens by another half texel
+  const vec2 wide = clamp(sqrt(beam * beam + disc * disc) - 0.5, vec2(1.0), vec2(kWidest));
+  // A tent, whose shares are made to add up to 1: by a loop of one length for all, because lavapipe lost turns of one of its own for each
+  const ivec2 low = ivec2(ceil(place - wide)), high = ivec2(floor(place + wide));
+  vec2 whole = vec2(0.0);
+  RILL_LOOP for (int k = 0; k <= 2 * int(kWidest); ++k) whole += max(1.0 - abs(vec2(low + k) - place) / wide, vec2(0.0));
+  const float scale = 1.0 / (whole.x * whole.y);
+#ifdef SOLIDS
+  const uint layer = last.y < 0.0 ? uint(size.x * size.y) : 0u;
+#else
+  const uint layer = 0u;
+#endif
+  const int columns = high.x - low.x + 1, taps = columns * (high.y - low.y + 1);
+  float share = 0.0;
+  uvec3 given = uvec3(0u);
+  for (int k = 0; k < taps; ++k) {
+    const ivec2 texel = low + ivec2(k % columns, k / columns);
+    const vec2 tent = max(1.0 - abs(vec2(texel) - place) / wide, vec2(0.0));
+    share += tent.x * tent.y * scale;
+    const uvec3 next = max(uvec3(counts * min(share, 1.0) + 0.5), given), amount = next - given;
+    given = next;
+    if (all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size))) {
+      const uint first = 3u * (layer + uint(texel.y * size.x + texel.x));
+      for (uint c = 0u; c < 3u; ++c)
+        if (amount[c] > 0u) atomicAdd(sums[first + c], amount[c]);
+    }
+  }
+}
