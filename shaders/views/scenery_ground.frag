@@ -36,8 +36,15 @@ vec3 backdrop(vec3 sight) {
 }
 vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
 #else
+#ifdef SKY
+float backdropShare() { return 1.0; }
+#else
+float backdropShare() { return scene.domain_max.w > 0.0 ? 1.0 : 0.3; }  // darker behind a tank
+#endif
 // Darker than the sky that is reflected, so that reflections are seen against it.
-vec3 backdrop(vec3 sight) { return mix(vec3(0.020, 0.026, 0.036), vec3(0.0012, 0.0018, 0.003), sqrt(clamp(sight.y, 0.0, 1.0))); }
+vec3 backdrop(vec3 sight) {
+  return backdropShare() * mix(vec3(0.06, 0.08, 0.11), vec3(0.010, 0.016, 0.030), sqrt(clamp(sight.y, 0.0, 1.0)));
+}
 vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z))); }
 #endif
 
@@ -64,10 +71,9 @@ void main() {
   const vec2 inner = p.xz - scene.domain_min.xz;
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
-  const bool inside = all(equal(beyond, vec2(0.0)));
-  vec3 albedo = step > 0.0 ? vec3(0.115, 0.13, 0.15) : kTable;
-  if (inside && step <= 0.0) albedo = kTankFloor;
-  if (inside && step > 0.0) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
+  const bool inside = all(equal(beyond, vec2(0.0))), tank = step <= 0.0;
+  vec3 albedo = tank ? (inside ? kTankFloor : kTable) : vec3(0.115, 0.13, 0.15);
+  if (inside && !tank) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
   const vec3 direct = reaching(sunlight() * max(sun.y, 0.0), p, bias, 0.5 * (width.x + width.y), false);
   const vec3 lit = albedo * (kAmbientShare * skyLight(vec3(0.0, 1.0, 0.0)) + kSunShare * direct);
