@@ -106,7 +106,9 @@ Caustics::Frame Caustics::addTo(Graph& graph, const FluidState& fluid, const Flu
             back = graph.create("caustics back", {texels * 16});
   out.surfaces = graph.create("caustics surfaces", {texels * 16});
   out.landings = graph.create("caustics landings", {photons * 16});
-  out.sums = graph.create("caustics sums", {photons * layers * 12});
+  const auto [fineWidth, fineHeight] = levelSize(view, 0);
+  const uint64_t coarse = divideUp(fineWidth, caustics::kCausticCoarse) * divideUp(fineHeight, caustics::kCausticCoarse);
+  out.sums = graph.create("caustics sums", {(photons + coarse) * layers * 12});
   out.map = graph.create("caustics map", {mapBytes(view, solids_)});
   addFill(graph, "caustics clear", {{&first, 0xFFFFFFFFu}, {&last, 0}, {&out.sums, 0}});
   const CountedParticles particles = countParticles(graph, fluid, particleGroups_, kCausticGroup);

@@ -41,7 +41,7 @@ class Caustics {
     BufferRef map;
     BufferRef landings;  ///< per photon: place in texels of the map (floats), then half floats: light, length of the way in texels
     BufferRef surfaces;  ///< per texel of the view: first and last depth, share covered, thickness in m
-    BufferRef sums;      ///< three words per texel and layer of the map, in units of `unit`
+    BufferRef sums;      ///< three words per texel of each layer, then per coarse texel, in counts; `unit`: of a photon
     double unit = 1;
     bool solids = false;
   };

@@ -22,3 +22,9 @@ const uint kNoFirst = 0xFFFFFFFFu, kNoLast = 0u;
 
 // The share of a texel's light that meets the fluid, by the mean of what spheres cover around it. The spheres reach beyond the fluid.
 float coverageOf(float covered) { return clamp(3.2 * (covered - 0.61) + 0.5, 0.0, 1.0); }
+
+// Sums of a layer lie one after the other: those of the map's texels of all layers, then those of wide beams.
+ivec2 fineSize() { return int(kCausticFine) * ivec2(sun.width, sun.height); }
+ivec2 coarseSize() { return (fineSize() + int(kCausticCoarse) - 1) / int(kCausticCoarse); }
+uint fineSums(uint layer) { return layer * uint(fineSize().x * fineSize().y); }
+uint coarseSums(uint layer, uint layers) { return fineSums(layers) + layer * uint(coarseSize().x * coarseSize().y); }

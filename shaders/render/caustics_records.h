@@ -17,6 +17,7 @@ using vec4 = Float4;
 
 RILL_CONSTANT kCausticGroup = 64;  // invocations per workgroup
 RILL_CONSTANT kCausticFine = 2;    // photons, and texels of the map, per side of a texel of the sun's view
+RILL_CONSTANT kCausticCoarse = 4;  // texels of the map per side of one that sums wide beams
 RILL_CONSTANT kCausticLevels = 5;  // of the map, each half as large as the one before
 
 struct CausticsRecord {

@@ -9,20 +9,35 @@ layout(std430, set = 0, binding = 1) readonly buffer Sums { uint sums[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Smooth { vec4 smoothed[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Caustics { uvec2 caustics[]; };
 
+#ifdef SOLIDS
+const uint kLayers = 2u;
+#else
+const uint kLayers = 1u;
+#endif
+
+vec3 sumAt(ivec2 texel, ivec2 size, uint start) {
+  texel = clamp(texel, ivec2(0), size - 1);
+  const uint first = 3u * (start + uint(texel.y * size.x + texel.x));
+  return vec3(sums[first], sums[first + 1u], sums[first + 2u]);
+}
+
 // The mean of four texels, which leaves no pattern of photons two texels apart. The map's texels are half a texel before those of the sums.
-vec3 lightAt(ivec2 at, ivec2 size, uint layer) {
-  uvec3 sum[4];
-  for (int k = 0; k < 4; ++k) {
-    const ivec2 texel = max(at - ivec2(k & 1, k >> 1), ivec2(0));
-    const uint first = 3u * (layer + uint(texel.y * size.x + texel.x));
-    sum[k] = uvec3(sums[first], sums[first + 1u], sums[first + 2u]);
-  }
-  return min((vec3(sum[0]) + vec3(sum[1]) + vec3(sum[2]) + vec3(sum[3])) / (4.0 * sun.flux), vec3(6e4));
+vec3 lightAt(ivec2 at, uint layer) {
+  const uint start = fineSums(layer), coarse_start = coarseSums(layer, kLayers);
+  const ivec2 size = fineSize(), coarse_size = coarseSize();
+  const vec3 fine = sumAt(at, size, start) + sumAt(at - ivec2(1, 0), size, start) + sumAt(at - ivec2(0, 1), size, start) +
+                    sumAt(at - ivec2(1, 1), size, start);
+  const vec2 place = vec2(at) / float(kCausticCoarse) - 0.5, part = fract(place);
+  const ivec2 base = ivec2(floor(place));
+  const vec3 coarse = mix(mix(sumAt(base, coarse_size, coarse_start), sumAt(base + ivec2(1, 0), coarse_size, coarse_start), part.x),
+                          mix(sumAt(base + ivec2(0, 1), coarse_size, coarse_start), sumAt(base + 1, coarse_size, coarse_start), part.x),
+                          part.y);
+  return min((0.25 * fine + coarse / float(kCausticCoarse * kCausticCoarse)) / sun.flux, vec3(6e4));
 }
 
 void main() {
   const uint index = invocation();
-  const ivec2 size = int(kCausticFine) * ivec2(sun.width, sun.height);
+  const ivec2 size = fineSize();
   if (index >= uint(size.x * size.y)) return;
   const ivec2 texel = ivec2(index % uint(size.x), index / uint(size.x));
   const vec2 at = vec2(texel) / float(kCausticFine) - 0.5, part = at - floor(at);
@@ -35,10 +50,10 @@ void main() {
     covered += weight.x * weight.y * texel_near.z;
     begins = min(begins, texel_near.x);
   }
-  const vec3 light = lightAt(texel, size, 0u);
+  const vec3 light = lightAt(texel, 0u);
   caustics[index] = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, 1.0 - coverageOf(covered))));
 #ifdef SOLIDS
-  const vec3 on_solids = lightAt(texel, size, uint(size.x * size.y));
+  const vec3 on_solids = lightAt(texel, 1u);
   caustics[uint(size.x * size.y) + index] = uvec2(packHalf2x16(on_solids.rg), packHalf2x16(vec2(on_solids.b, clamp(begins, -6e4, 6e4))));
 #endif
 }

@@ -139,7 +139,9 @@ class CausticsOnGpu : public SurfaceOnGpu {
 // Sums of a channel, by the beams of the photons that the device found.
 std::vector<double> splatted(const Refracted& seen, const SunView& view, size_t channel) {
   const int width = int(kCausticFine * view.width), height = int(kCausticFine * view.height);
-  std::vector<double> sums(size_t(width) * height);
+  const int coarse = int(caustics::kCausticCoarse), coarseWidth = (width + coarse - 1) / coarse,
+            coarseHeight = (height + coarse - 1) / coarse;
+  std::vector<double> sums(size_t(width) * height + size_t(coarseWidth) * coarseHeight);
   const auto at = [&](int x, int y) -> const Photon* {
     if (x < 0 || y < 0 || x >= width || y >= height) return nullptr;
     return &seen.photons[size_t(y) * width + x];
@@ -159,11 +161,19 @@ std::vector<double> splatted(const Refracted& seen, const SunView& view, size_t 
         }
         for (int k = 0; k < 2; ++k) wide[k] += std::abs(beam[k]);
       }
-      const double disc = 0.0093 * std::abs(own.way), place[2] = {own.u, own.v};
+      const double disc = 0.0093 * std::abs(own.way);
+      double place[2] = {own.u, own.v};
+      for (double& w : wide) w = std::hypot(w, disc) - 0.5;
+      const bool far = std::max(wide[0], wide[1]) > 2.5;
+      const int sides[2] = {far ? coarseWidth : width, far ? coarseHeight : height};
       std::vector<double> shares[2];
       int first[2];
       for (int k = 0; k < 2; ++k) {
-        wide[k] = std::clamp(std::hypot(wide[k], disc) - 0.5, 1.0, 2.5);
+        if (far) {
+          place[k] = (place[k] + 0.5) / coarse - 0.5;
+          wide[k] /= coarse;
+        }
+        wide[k] = std::clamp(wide[k], 1.0, 2.5);
         first[k] = int(std::ceil(place[k] - wide[k]));
         double whole = 0;
         for (int n = first[k]; n <= place[k] + wide[k]; ++n) {
@@ -173,9 +183,11 @@ std::vector<double> splatted(const Refracted& seen, const SunView& view, size_t 
         for (double& share : shares[k]) share /= whole;
       }
       for (size_t b = 0; b < shares[1].size(); ++b)
-        for (size_t a = 0; a < shares[0].size(); ++a)
-          if (at(first[0] + int(a), first[1] + int(b)))
-            sums[size_t(first[1] + int(b)) * width + first[0] + int(a)] += own.light[channel] * shares[0][a] * shares[1][b];
+        for (size_t a = 0; a < shares[0].size(); ++a) {
+          const int i = first[0] + int(a), j = first[1] + int(b);
+          if (i >= 0 && j >= 0 && i < sides[0] && j < sides[1])
+            sums[(far ? size_t(width) * height : 0) + size_t(j) * sides[0] + i] += own.light[channel] * shares[0][a] * shares[1][b];
+        }
     }
   return sums;
 }
