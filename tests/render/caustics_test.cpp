@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <limits>
 #include <optional>
 
 #include "render/surface_rig.hpp"
@@ -390,6 +391,16 @@ TEST_F(CausticsOnGpu, AbsorbsAlongTheWay) {
     const double expected = transmittance(angle, 1.333) * std::exp(-rates[c] / std::cos(inner));
     EXPECT_NEAR(sum / count / expected, 1, 0.03) << c;
   }
+}
+
+TEST_F(CausticsOnGpu, HandlesParticlesOutOfView) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+  fill({{1e9f, 1e9f, 1e9f, 0}, {nan, 0, 0, 0}, {0, infinite, 0, 0}, {1e6f, 0, 0, 0}, {0, -1e6f, 1e6f, 0}});
+  const SunView view = sunAt(20 * kDegree, 1, -1);
+  const Refracted seen = refracted(view, clear());
+  EXPECT_TRUE(std::ranges::all_of(seen.sums, [](uint32_t sum) { return sum == 0; }));
+  for (uint32_t y = 0; y < kCausticFine * view.height; ++y)
+    for (uint32_t x = 0; x < kCausticFine * view.width; ++x) ASSERT_EQ(seen.light(view, x, y, 3), 1) << x << ", " << y;
 }
 
 }  // namespace caustics_test
