@@ -130,7 +130,8 @@ Expected<void> Runner::finishPiece() {
 Expected<void> Runner::stepWhitewater() {
   if (auto settled = settle(); !settled) return settled;
   return run(whiteGraph_, [&](Graph& graph) {
-    static_cast<void>(white_->addTo(graph, fluid_->addTo(graph, {}), Clock::kStep, offline::gravityAt(scene_, time_s())));
+    const double seconds = std::max(Clock::kStep - last_.timeDropped_s, 0.0);
+    static_cast<void>(white_->addTo(graph, fluid_->addTo(graph, {}), seconds, offline::gravityAt(scene_, time_s())));
   });
 }
 

@@ -77,6 +77,8 @@ class Painter {
                                double time_s, uint32_t k);
   /// The mean of all samples, with its read-back.
   PictureTickets declareMean(Graph& graph, PixelKind kind) const;
+  /// Another number each time that the sum of samples was lost to another size.
+  uint64_t sumGeneration() const { return sum_ ? sum_->generation() : 0; }
   /// The color scale of a view; empty for views without one, or before prepare().
   std::optional<LegendDesc> legend(std::string_view view, double time_s) const;
   /// Draws the legend of a view into a finished picture, on the host.

@@ -21,7 +21,7 @@ Expected<PictureRun::Drawn> PictureRun::run(Painter& painter, const Source& sour
     boundHits_ = offline::boundHits(graph_, tickets);
     return Drawn{&graph_, tickets};
   }
-  if (const std::pair size{width, height}; summed_ != size) {
+  if (summed_ != painter.sumGeneration()) {
     summed_.reset();
     // A frame each: the memory of one, and no submission that takes longer than a picture.
     for (uint32_t k = 0; k < samples; ++k) {
@@ -32,7 +32,7 @@ Expected<PictureRun::Drawn> PictureRun::run(Painter& painter, const Source& sour
       if (!ran) return ran.error();
       boundHits_ += offline::boundHits(graph_, tickets);
     }
-    summed_ = size;
+    summed_ = painter.sumGeneration();
   }
   auto ran = source.run(meanGraph_, [&](Graph& graph) { tickets = painter.declareMean(graph, kind); });
   if (!ran) return ran.error();

@@ -45,7 +45,7 @@ class PictureRun {
   Expected<Drawn> run(Painter& painter, const Source& source, std::string_view view, uint32_t width, uint32_t height, PixelKind kind);
 
   Graph graph_, meanGraph_;
-  std::optional<std::pair<uint32_t, uint32_t>> summed_;  ///< size of the picture whose samples are in the painter's sum
+  std::optional<uint64_t> summed_;  ///< Painter::sumGeneration() in which the samples of the last picture were summed
   uint64_t boundHits_ = 0;
 };
 

@@ -136,7 +136,7 @@ Caustics::Frame Caustics::addTo(Graph& graph, const FluidState& fluid, const Flu
   add("caustics splat", splat_, divideUp(photons, kCausticGroup));
   add("caustics resolve", resolve_, divideUp(photons, kCausticGroup));
   struct Level {
-    uint32_t from, fromWidth, fromHeight, to, toWidth, toHeight;
+    uint32_t from, fromWidth, fromHeight, to, toWidth, toHeight, solids;
   };
   uint32_t start = 0;
   for (uint32_t level = 1; level < kCausticLevels; ++level) {
@@ -145,7 +145,7 @@ Caustics::Frame Caustics::addTo(Graph& graph, const FluidState& fluid, const Flu
                    next = start + static_cast<uint32_t>(layers) * finerTexels;
     for (uint32_t layer = 0; layer < layers; ++layer)
       addDispatch(graph, "caustics level", level_, divideUp(ownTexels, kCausticGroup),
-                  Level{start + layer * finerTexels, finer[0], finer[1], next + layer * ownTexels, own[0], own[1]},
+                  Level{start + layer * finerTexels, finer[0], finer[1], next + layer * ownTexels, own[0], own[1], layer},
                   {{"caustics", out.map}});
     start = next;
   }

@@ -2,10 +2,9 @@
 // Sunlight that the fluid's surface refracts onto what is below and behind it (after Shah, Konttinen and Pattanaik 2007), as a map in the
 // sun's view.
 //
-//   const Caustics::Frame frame = caustics.addTo(graph, fluid, look, view, thickness, solidDepths);
+//   const Caustics::Frame frame = caustics.addTo(graph, fluid, look, view, thickness, thicknessUnit, solidDepths);
 //   // frame.map is read as shaders/views/scenery.glsl does
 #include <array>
-#include <optional>
 
 #include "render/caustics_records.h"
 #include "rill/fluid_renderer.hpp"
@@ -16,15 +15,15 @@ namespace rill {
 
 /// A view along the sun's rays. Texel k along u is where dot(p, u) = first_u + k texel, for p relative to `origin`; likewise along v.
 struct SunView {
-  Double3 origin = {0, 0, 0};                               ///< m, in the scene's coordinates
-  Double3 u = {1, 0, 0}, v = {0, 0, 1}, toSun = {0, 1, 0};  ///< orthonormal, u cross v = toSun, u horizontal
-  double first_u = 0, first_v = 0;                          ///< m, of the first texel's center
-  double nearest = 0;                                       ///< dot(p, toSun) where light depth is 0, m
-  double texel = 1, depths = 1;                             ///< m: of a texel, and the range of light depths
-  uint32_t width = 1, height = 1;                           ///< texels
-  bool floor = false;                                       ///< the stage's floor, in the plane of its lower side, is a receiver
-  Double3 low = {0, 0, 0}, high = {0, 0, 0};                ///< the stage, relative to `origin`, m
-  uint32_t closed = 0;                                      ///< its sides that are walls: bits -x +x -y +y -z +z
+  Double3 origin = {0, 0, 0};                                ///< m, in the scene's coordinates
+  Double3 u = {1, 0, 0}, v = {0, 0, -1}, toSun = {0, 1, 0};  ///< orthonormal, u cross v = toSun, u horizontal
+  double first_u = 0, first_v = 0;                           ///< m, of the first texel's center
+  double nearest = 0;                                        ///< dot(p, toSun) where light depth is 0, m
+  double texel = 1, depths = 1;                              ///< m: of a texel, and the range of light depths
+  uint32_t width = 1, height = 1;                            ///< texels
+  bool floor = false;                                        ///< the stage's floor, in the plane of its lower side, is a receiver
+  Double3 low = {0, 0, 0}, high = {0, 0, 0};                 ///< the stage, relative to `origin`, m
+  uint32_t closed = 0;                                       ///< its sides that are walls: bits -x +x -y +y -z +z
 };
 
 class Caustics {
@@ -39,7 +38,7 @@ class Caustics {
   /// light that meets no fluid, in the second the depth where fluid begins.
   struct Frame {
     BufferRef map;
-    BufferRef landings;  ///< per photon: place in texels of the map (floats), then half floats: light, length of the way in texels
+    BufferRef landings;  ///< per photon: place in texels of the map (floats), then half floats: light, path length in texels
     BufferRef surfaces;  ///< per texel of the view: first and last depth, share covered, thickness in m
     BufferRef sums;      ///< three words per texel of each layer, then per coarse texel, in counts; `unit`: of a photon
     double unit = 1;

@@ -37,6 +37,7 @@ Expected<void> FilmSum::resize(Device& device, uint32_t width, uint32_t height) 
   sum_ = *std::move(made);
   width_ = width;
   height_ = height;
+  ++generation_;
   return {};
 }
 

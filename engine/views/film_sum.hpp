@@ -14,6 +14,9 @@ class FilmSum {
   /// Makes room for pictures of this size; the sum is lost if it was of another. OutOfMemory; TooLarge for the device's buffers.
   Expected<void> resize(Device& device, uint32_t width, uint32_t height);
 
+  /// Another number after each resize() that lost the sum.
+  uint64_t generation() const { return generation_; }
+
   /// Adds a picture, `color` of the size at hand; `first`: the sum begins with it.
   void add(Graph& graph, ImageRef color, bool first) const;
   /// The mean of `count` summed pictures, multiplied by two to the power of `exposure_stops`: RGBA8 in sRGB, rows from the top.
@@ -28,6 +31,7 @@ class FilmSum {
   const ComputePipeline *add_ = nullptr, *tone_ = nullptr, *linear_ = nullptr;
   Buffer sum_;
   uint32_t width_ = 0, height_ = 0;
+  uint64_t generation_ = 0;
 };
 
 }  // namespace rill

@@ -63,7 +63,7 @@ std::vector<GlassQuad> glassQuads(const Domain& domain, const Double3& origin) {
       const size_t side = 2 * axis + upper, other = 2 - axis;
       if (!closed(side)) continue;
       double top = high[1];
-      if (domain.outflow && (static_cast<size_t>(domain.outflow->side) ^ 1) == side) top = std::min(top, low[1] + domain.outflow->level);
+      if (domain.outflow && sideBit(domain.outflow->side) == side) top = std::min(top, low[1] + domain.outflow->level);
       PaneFaces faces(quads, axis, upper ? 1 : -1);
       const double outer = upper ? high[axis] + thick : low[axis] - thick, inner = upper ? high[axis] : low[axis];
       const double band = std::min(kPolished * thick, 0.25 * (top - low[1])), base = std::min(thick, 0.25 * (top - low[1]));

@@ -62,18 +62,17 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     const Float3& to = environment->sun()->direction;
     toSun = {to.x, to.y, to.z};
   }
-  const bool tank = scene.look.stage == "tank" && scene.domain;
-  if (tank && !environment) toSun = kBehindTank;
-  ParticleScene host = particleScene(scene, particles, toSun);
-  if (tank) host.scene.domain_max.w = 0;  // no grid
-  auto buffers = SceneBuffers::create(device, std::move(host));
-  if (!buffers) return buffers.error();
-  out->buffers_ = *std::move(buffers);
-  if (tank) {
-    auto glass = GlassTank::create(device, *scene.domain, out->buffers_.host.origin, formats, environment != nullptr);
+  if (scene.look.stage == "tank" && scene.domain) {
+    auto glass = GlassTank::create(device, *scene.domain, particles.origin, formats, environment != nullptr);
     if (!glass) return glass.error();
     out->tank_ = *std::move(glass);
   }
+  if (out->tank_ && !environment) toSun = kBehindTank;
+  ParticleScene host = particleScene(scene, particles, toSun);
+  if (out->tank_) host.scene.domain_max.w = 0;  // no grid
+  auto buffers = SceneBuffers::create(device, std::move(host));
+  if (!buffers) return buffers.error();
+  out->buffers_ = *std::move(buffers);
   auto stage = SurfaceStage::create(device);
   if (!stage) return stage.error();
   out->stage_ = *stage;
@@ -125,15 +124,15 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     light.fragment = {};
     all.push_back({out->meshLight_, light});
   }
-  std::string names[2][3];
+  std::string shaderNames[2][3];
   for (const bool refracted : {false, true}) {
     if (refracted && !out->caustics_) continue;
-    const std::string rest = sky + (refracted ? "_caustics" : "") + "_fragment";
-    auto& [groundShader, solidShader, meshShader] = names[refracted];
+    const std::string suffix = sky + (refracted ? "_caustics" : "") + "_fragment";
+    auto& [groundShader, solidShader, meshShader] = shaderNames[refracted];
     Drawing& drawing = refracted ? out->refracted_ : out->plain_;
-    groundShader = "views/scenery_" + around + (out->hasGround() ? rest : sky + "_fragment");
-    solidShader = "views/scenery_solid" + rest;
-    meshShader = "views/scenery_mesh" + rest;
+    groundShader = "views/scenery_" + around + (out->hasGround() ? suffix : sky + "_fragment");
+    solidShader = "views/scenery_solid" + suffix;
+    meshShader = "views/scenery_mesh" + suffix;
     GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", groundShader);
     ground.depthCompare = VK_COMPARE_OP_ALWAYS;
     all.push_back({drawing.ground, ground});
@@ -166,7 +165,7 @@ SunView Scenery::sunView() const {
   view.width = scene.counts.y;
   view.height = scene.counts.z;
   view.floor = hasGround();
-  if (hasEdges()) {
+  if (hasDomain()) {
     view.low = wide(scene.domain_min);
     view.high = wide(scene.domain_max);
     view.closed = scene.counts.w;

@@ -31,7 +31,8 @@ vec3 between(vec2 at, vec4 a, vec4 b, vec4 c, vec4 d, float outwards) {
   if (outermost >= noDepth()) return vec3(noDepth(), 0.0, 0.0);
   shares *= vec4(lessThan(front - outermost, vec4(sun.range + sun.texel)));
   const vec3 sum = shares.x * a.xyz + shares.y * b.xyz + shares.z * c.xyz + shares.w * d.xyz;
-  return sum / (shares.x + shares.y + shares.z + shares.w);
+  const float whole = shares.x + shares.y + shares.z + shares.w;
+  return whole > 0.0 ? sum / whole : vec3(noDepth(), 0.0, 0.0);
 }
 
 uint cornerOf(vec2 at, ivec2 corner) {
@@ -152,7 +153,7 @@ void main() {
     }
     whole = reached;
     wet = min(wet, whole);
-    if (whole < path.inside) leaving = 1.0;
+    leaving = mix(1.0, leaving, smoothstep(kDryGap.x, kDryGap.y, (whole - path.inside) / sun.spacing));
   }
 #endif
   if (whole >= 0.5 * noDepth()) return;
@@ -166,10 +167,10 @@ void main() {
                                                                                : x;
       landing += (back - x) * sun.world[axis].xyz;
     }
-  // Of the way between the surfaces, what is fluid; its sums over particles vary about 1
+  // Of the path between the surfaces, what is fluid; its sums over particles vary about 1
   const float fluid = clamp(body.y / max(straight, 0.1 * sun.spacing), 0.0, 1.25) * wet;
   const vec3 light = share * leaving * exp(-sun.absorption.rgb * fluid);
   const vec2 place = (landing.xy / sun.texel + 0.5) * float(kCausticFine) - 0.5;
-  const float way = min(whole * float(kCausticFine) / sun.texel, 6e4) + 1.0;  // never 0
-  landings[index] = uvec4(floatBitsToUint(place), packHalf2x16(light.rg), packHalf2x16(vec2(light.b, solid ? -way : way)));
+  const float texels = min(whole * float(kCausticFine) / sun.texel, 6e4) + 1.0;  // never 0
+  landings[index] = uvec4(floatBitsToUint(place), packHalf2x16(light.rg), packHalf2x16(vec2(light.b, solid ? -texels : texels)));
 }

@@ -12,18 +12,18 @@ const float kSunDisc = 0.0093;  // rad, of its diameter
 const float kWidest = 2.5;      // texels, half the width of a beam at most; wider ones are summed in coarse texels
 
 // To a neighbor's place on the same receiver; false if there is none.
-bool beamTo(ivec2 other, vec2 place, float way, ivec2 size, out vec2 beam) {
+bool beamTo(ivec2 other, vec2 place, float path, ivec2 size, out vec2 beam) {
   beam = vec2(0.0);
   if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) return false;
   const uvec4 next = landings[uint(other.y * size.x + other.x)];
   beam = uintBitsToFloat(next.xy) - place;
-  return unpackHalf2x16(next.w).y * way > 0.0;
+  return unpackHalf2x16(next.w).y * path > 0.0 && all(lessThan(abs(beam), vec2(1e5)));
 }
 
 // How far apart neighbors land; without any, as far as they started.
-vec2 beamAlong(ivec2 own, ivec2 along, vec2 place, float way, ivec2 size) {
+vec2 beamAlong(ivec2 own, ivec2 along, vec2 place, float path, ivec2 size) {
   vec2 after, before;
-  const bool has_after = beamTo(own + along, place, way, size, after), has_before = beamTo(own - along, place, way, size, before);
+  const bool has_after = beamTo(own + along, place, path, size, after), has_before = beamTo(own - along, place, path, size, before);
   return has_after ? after : has_before ? -before : vec2(along);
 }
 

@@ -27,6 +27,7 @@ const float kAround = 1.0;
 const float kAround = 0.3;  // the studio is darker around the tank than the sky that the fluid reflects
 #endif
 const float kGlint = 400.0;  // exponent of the sun's reflection
+const float kGlintRadiance = 18.0;  // relative to a white surface in the sun
 
 void main() {
   const vec3 sight =
@@ -34,7 +35,7 @@ void main() {
   const float cosine = min(abs(dot(sight, normal)), 1.0);
   const vec3 mirrored = reflect(sight, normal), sun = look.light.xyz;
   const float face = fresnel(cosine, kIndex);
-  const vec3 sky = kAround * skyColor(mirrored, sun, 0.0) + sunlight() * pow(max(dot(mirrored, sun), 0.0), kGlint) * look.light.w;
+  const vec3 sky = kAround * skyColor(mirrored, sun, 0.0) + sunlight() * pow(max(dot(mirrored, sun), 0.0), kGlint) * kGlintRadiance;
   if (edge == 0u) {
     const float both = 2.0 * face / (1.0 + face);  // what both faces reflect, in any number of reflections between them
     color = vec4(sky * both, 1.0 - (1.0 - both) * (1.0 - kAbsorbed));

@@ -106,16 +106,20 @@ vec3 reaching(vec3 sun, vec3 p, float bias, float width, bool solid) {
   if (any(lessThan(at, vec2(-2.0))) || any(greaterThan(at, vec2(scene.counts.yz) + 1.0))) return sun * past;
   ivec2 size = int(kCausticFine) * ivec2(scene.counts.yz);
   const float texels = max(width * float(kCausticFine) / scene.light_texel.x, 1.0);
-  const int level = min(int(log2(texels) + 0.5), int(kCausticLevels) - 1);
+  const float detail = min(log2(texels), float(kCausticLevels - 1u)), part = fract(detail);
   const float depth = scene.light_to.w - dot(p, scene.light_to.xyz) - 0.5 * view.spacing;
   vec2 place = (at + 0.5) * float(kCausticFine) + 0.5;  // texels are half of one before those of photons
   uint first = 0u;
-  RILL_LOOP for (int k = 0; k < level; ++k) {
+  // Levels up to the one of this detail, which is mixed with the next
+  vec4 light = vec4(0.0);
+  RILL_LOOP for (int k = 0; k < int(kCausticLevels); ++k) {
+    const float share = k == int(detail) ? 1.0 - part : (k == int(detail) + 1 ? part : 0.0);
+    if (share > 0.0) light += share * causticLevel(place - 0.5, first, size, solid, depth);
+    if (float(k) >= detail) break;
     first += kCausticLayers * uint(size.x * size.y);
     size = (size + 1) / 2;
     place *= 0.5;
   }
-  const vec4 light = causticLevel(place - 0.5, first, size, solid, depth);
   return sun * (solid ? past * (light.a + light.rgb) : past * light.a + light.rgb);
 }
 #else

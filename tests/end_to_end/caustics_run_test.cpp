@@ -10,7 +10,7 @@ namespace caustics_run_test {
 
 struct Wanted {
   bool caustics = false;
-  std::string sky = "day", look = {}, fill = R"({"box": {"min": [0, 0, 0], "max": [0.6, 0.3, 0.6]}})", more = {};
+  std::string sky = "day", look = {}, fill = R"({"box": {"min": [0, 0, 0], "max": [0.6, 0.3, 0.6]}})", more = {}, open = {};
 };
 
 /// A picture, and how many passes of caustics drew it.
@@ -20,9 +20,9 @@ struct Seen {
 };
 
 Seen seen(const Wanted& wanted) {
-  auto scene = parseScene(R"({"rill": "0.2", "domain": {"min": [0, 0, 0], "max": [1.2, 0.8, 0.6]}, "fluid": {"spacing": 0.05}, "fill": [)" +
-                              wanted.fill + R"(], "look": {"sky": ")" + wanted.sky + R"(", "caustics": )" +
-                              (wanted.caustics ? "true" : "false") + wanted.look + "}" + wanted.more + "}",
+  auto scene = parseScene(R"({"rill": "0.2", "domain": {"min": [0, 0, 0], "max": [1.2, 0.8, 0.6], "open": [)" + wanted.open +
+                              R"(]}, "fluid": {"spacing": 0.05}, "fill": [)" + wanted.fill + R"(], "look": {"sky": ")" + wanted.sky +
+                              R"(", "caustics": )" + (wanted.caustics ? "true" : "false") + wanted.look + "}" + wanted.more + "}",
                           "tank", ".");
   EXPECT_TRUE(scene) << scene.error().message;
   auto run = Simulation::open(*scene, Options{.validation = true});
@@ -51,9 +51,11 @@ TEST(CausticsRun, NothingOfThemExistsWithoutTheKey) {
 }
 
 TEST(CausticsRun, FallOnSolids) {
+  const std::string open = R"("-y")";  // no floor that they could fall on
   const std::string ball = R"(, "solids": [{"sphere": {"center": [0.9, 0.1, 0.3], "radius": 0.1}}])";
   const std::string column = R"({"box": {"min": [0.7, 0.4, 0], "max": [1.1, 0.6, 0.6]}})";
-  const Seen plain = seen({.fill = column, .more = ball}), refracted = seen({.caustics = true, .fill = column, .more = ball});
+  const Seen plain = seen({.fill = column, .more = ball, .open = open}),
+             refracted = seen({.caustics = true, .fill = column, .more = ball, .open = open});
   EXPECT_NE(plain.pixels, refracted.pixels);
 }
 

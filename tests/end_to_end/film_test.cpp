@@ -105,16 +105,16 @@ TEST(FilmPicture, SuperSamplingApproachesALargerPicture) {
 constexpr const char* kFarCamera = R"({"eye": [0, 0, 40], "target": [0, 0, 0], "fov_y_deg": 1.5})";
 const double kFarPixels = 128 / (80 * std::tan(0.75 * std::numbers::pi / 180));  // per m, of a picture 128 pixels high
 
-TEST(FilmPicture, MovingBallBlursOverItsWay) {
-  const double speed = 2, open = 0.2, way = speed * open * kFarPixels;
+TEST(FilmPicture, MovingBallBlursOverItsPath) {
+  const double speed = 2, open = 0.2, path = speed * open * kFarPixels;
   const Scene empty = sceneOf(clay(R"("fill": [])", kFarCamera));
   const Scene ball = sceneOf(clay(R"("fill": [{"sphere": {"center": [0, 0, 0], "radius": 0.1}, "velocity": [2, 0, 0]}])", kFarCamera));
   Simulation without = opened(empty), sharp = opened(ball, {.samples = 32}), blurred = opened(ball, {.shutter_s = open});
   const Light background = lightOf(without, 256, 128), before = lightOf(sharp, 256, 128), after = lightOf(blurred, 256, 128);
   const double wider = spread(after, background) - spread(before, background);
   const double measured = std::sqrt(12 * wider / (1 - 1.0 / (kFilmSamples * kFilmSamples)));
-  EXPECT_NEAR(measured, way, 0.03 * way);
-  RecordProperty("blur and way in pixels", std::to_string(measured) + " " + std::to_string(way));
+  EXPECT_NEAR(measured, path, 0.03 * path);
+  RecordProperty("blur and path in pixels", std::to_string(measured) + " " + std::to_string(path));
   RecordProperty("light with and without blur", std::to_string(after.sum()) + " " + std::to_string(before.sum()));
   EXPECT_NEAR(after.sum() - background.sum(), before.sum() - background.sum(), 0.02 * std::abs(before.sum() - background.sum()));
   const auto shown = blurred.render("final", 256, 128);
@@ -133,8 +133,8 @@ TEST(FilmPicture, MovingBallBlursOverItsWay) {
       << "without velocities it rests";
 }
 
-TEST(FilmPicture, SolidsAndBodiesBlurOverTheirWay) {
-  const double way = 2 * 0.1 * kFarPixels;
+TEST(FilmPicture, SolidsAndBodiesBlurOverTheirPath) {
+  const double path = 2 * 0.1 * kFarPixels;
   // Particles out of sight: without any there are no bodies.
   const std::string fill = R"("fill": [{"sphere": {"center": [0, 30, 0], "radius": 0.1}}], "solids": [)";
   const std::string sphere = R"({"name": "ball", "sphere": {"center": [0, 0, 0], "radius": 0.1})";
@@ -151,7 +151,7 @@ TEST(FilmPicture, SolidsAndBodiesBlurOverTheirWay) {
     const Light background = lightOf(without, 256, 128);
     const double wider = spread(drawn({.shutter_s = 0.1}), background) - spread(drawn({.samples = 32}), background);
     EXPECT_GT(wider, 0) << motion;
-    EXPECT_NEAR(std::sqrt(12 * wider), way, 0.04 * way) << motion;
+    EXPECT_NEAR(std::sqrt(12 * wider), path, 0.04 * path) << motion;
   }
 }
 
@@ -163,7 +163,7 @@ TEST(FilmPicture, OrbitBlursToo) {
     Simulation run = opened(ball, {.shutter_s = 0.1}, orbit);
     return spread(lightOf(run, 256, 128), background);
   };
-  // x = 0.5 cos(angle): to and fro from the end of its way, over 1/8 of it each.
+  // x = 0.5 cos(angle): to and fro from the end of its path, over 1/8 of it each.
   EXPECT_GT(width(900), width(0) + 10);
 }
 
@@ -229,6 +229,8 @@ TEST(FilmPicture, LinearAndShownPicturesShareTheirSamples) {
   ASSERT_TRUE(run.render("final", 32, 18));
   EXPECT_EQ(recorded(), 8u) << "another size";
   EXPECT_EQ(run.renderLinear(64, 36)->rgba, first->rgba);
+  ASSERT_TRUE(run.prepareRender("final", 32, 18));
+  EXPECT_EQ(run.renderLinear(64, 36)->rgba, first->rgba) << "the sum was lost in between";
   ASSERT_TRUE(run.render("depth", 64, 36));
   ASSERT_TRUE(run.advance(0.1));
   EXPECT_NE(run.renderLinear(64, 36)->rgba, first->rgba) << "another time";

@@ -20,7 +20,7 @@ constexpr double kSpace = 0.1;  // kSpacing
 struct Photon {
   double u = 0, v = 0;  ///< texels of the map
   double light[3] = {};
-  double way = 0;  ///< texels; negative: it lands on a solid; 0: no photon
+  double path = 0;  ///< texels; negative: it lands on a solid; 0: no photon
 };
 
 /// The lower (0) or upper (1) half float of a word.
@@ -150,19 +150,19 @@ std::vector<double> splatted(const Refracted& seen, const SunView& view, size_t 
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Photon& own = *at(x, y);
-      if (own.way == 0) continue;
+      if (own.path == 0) continue;
       double wide[2] = {};
       for (const bool down : {false, true}) {
         double beam[2] = {down ? 0.0 : 1.0, down ? 1.0 : 0.0};
         for (const int s : {-1, 1}) {
           const Photon* other = at(x + (down ? 0 : s), y + (down ? s : 0));
-          if (!other || other->way * own.way <= 0) continue;
+          if (!other || other->path * own.path <= 0) continue;
           beam[0] = other->u - own.u;
           beam[1] = other->v - own.v;
         }
         for (int k = 0; k < 2; ++k) wide[k] += std::abs(beam[k]);
       }
-      const double disc = 0.0093 * std::abs(own.way);
+      const double disc = 0.0093 * std::abs(own.path);
       double place[2] = {own.u, own.v};
       for (double& w : wide) w = std::hypot(w, disc) - 0.5;
       const bool far = std::max(wide[0], wide[1]) > 2.5;
@@ -228,14 +228,14 @@ class ReferenceRays {
     const Vector from{a, b, (*first)[0] + lift / cosine};
     const Vector along = refracted({0, 0, 1}, normal, 1 / index);
     // One step of Newton's method from the plane below, as the device takes it
-    double way = ((*below)[0] - from.z) / (along.z - (*below)[1] * along.x - (*below)[2] * along.y);
-    const Vector there = from + along * way;
+    double path = ((*below)[0] - from.z) / (along.z - (*below)[1] * along.x - (*below)[2] * along.y);
+    const Vector there = from + along * path;
     const auto last = surface(there.x, there.y, 1);
     if (!last) return std::nullopt;
-    way += ((*last)[0] - there.z) / (along.z - (*last)[1] * along.x - (*last)[2] * along.y);
+    path += ((*last)[0] - there.z) / (along.z - (*last)[1] * along.x - (*last)[2] * along.y);
     const Vector out = unit({-(*last)[1], -(*last)[2], 1});
     if (dot(out, along) < 0.5) return std::nullopt;
-    const Vector end = from + along * (way - lift / dot(out, along));
+    const Vector end = from + along * (path - lift / dot(out, along));
     const Vector onwards = refracted(along, out * -1, index);
     const double ground = view_.nearest - floor_;
     const Vector place = end + onwards * ((ground - end.z) / onwards.z);
@@ -319,18 +319,18 @@ TEST_F(CausticsOnGpu, FlatSurfaceShiftsLightBySnell) {
   const double angle = 40 * kDegree, inner = std::asin(std::sin(angle) / 1.333);
   const SunView view = sunAt(angle, 2, -1);
   const Refracted seen = refracted(view, clear());
-  double shift = 0, count = 0, way = 0;
+  double shift = 0, count = 0, path = 0;
   const uint32_t side = kCausticFine * view.width;
   for (uint32_t y = side / 3; y < 2 * side / 3; ++y)
     for (uint32_t x = side / 3; x < 2 * side / 3; ++x, ++count) {
       const Photon& photon = seen.photons[size_t{y} * side + x];
       shift += photon.v - y;
-      way += photon.way - 1;
+      path += photon.path - 1;
     }
   // Along v the floor's points are as far apart as the cosine of the sun's angle says.
   const double texel = view.texel / kCausticFine;
   EXPECT_NEAR(shift / count * texel, (std::tan(inner) - std::tan(angle)) * std::cos(angle), 0.005);
-  EXPECT_NEAR(way / count * texel, 1 / std::cos(inner), 0.01);
+  EXPECT_NEAR(path / count * texel, 1 / std::cos(inner), 0.01);
 }
 
 // As much light lands as enters the fluid: photons that are absorbed by nothing and reflected at both surfaces of a ball alone.
@@ -376,7 +376,7 @@ TEST_F(CausticsOnGpu, BallFocusesAtItsFocalLength) {
   }
 }
 
-TEST_F(CausticsOnGpu, AbsorbsAlongTheWay) {
+TEST_F(CausticsOnGpu, AbsorbsAlongThePath) {
   fill(block({-2.2, -1, -5}, {2.2, 0, 3.2}, 0.2));
   FluidLook look = clear();
   look.absorption = {1.5f, 0.5f, 0.1f};

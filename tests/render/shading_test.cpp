@@ -147,8 +147,7 @@ TEST_F(FlatPool, EmitsAsMuchAsItAbsorbs) {
     }
 }
 
-// Deep water below white light, by the reflectances that its preset gives for each color.
-TEST_F(FlatPool, PresetsHaveTheirColors) {
+TEST(LookPresets, HaveTheirColors) {
   const auto body = [&](std::string_view name) { return fluidLook(name)->scatter; };
   for (const std::string_view name : fluidLooks()) ASSERT_TRUE(fluidLook(name)) << name;
   EXPECT_FALSE(fluidLook("tar"));

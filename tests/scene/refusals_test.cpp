@@ -155,9 +155,10 @@ TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
       {with(R"("fill": [{"seed": 1}])"), ": fill[0].seed: unknown key; did you mean \"seed\", at the top of the scene?"},
       {with(R"("fill": [{"box": {"min": [0, 0, 0], "mx": [1, 1, 1]}}])"), ": fill[0].box.mx: unknown key; did you mean \"max\"?"},
       {with(R"("look": {"zzzzzz": 1})"),
-       ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"sky\", \"environment\", \"whitewater\", \"caustics\""},
+       ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", "
+       "\"whitewater\", \"caustics\""},
       {with(R"("look": {"a.b\nc": 1})"),
-       ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"sky\", \"environment\", \"whitewater\", "
+       ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", \"whitewater\", "
        "\"caustics\""},
   });
   EXPECT_EQ(parseError(with(R"("extras": {"anything": [1, {"goes": null}]}, "$schema": "scene.schema.json")")), "accepted");

@@ -253,7 +253,7 @@ class DeviceReport {
     if (!fluid) return fluid.error();
     if (auto advanced = advanceFluid(*workbench, *fluid, 2.0 / 60); !advanced) return advanced.error();
     workbench->timePasses(true);
-    offline::Painter painter(*scene, *start, 0);
+    offline::Painter painter(*scene, *start);
     for (const auto& [width, height] : kSizes) {
       if (bench_.stopped()) break;
       const std::string size = sizeText({width, height});

@@ -98,7 +98,7 @@ struct DamBreak {
   Scene scene;
   ParticleSet start;
   std::optional<Fluid> fluid;
-  offline::Painter painter{scene, start, 0};
+  offline::Painter painter{scene, start};
 };
 
 Expected<Report> runAll(Bench& bench) {

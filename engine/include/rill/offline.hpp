@@ -31,7 +31,7 @@ namespace rill::offline {
 inline constexpr double kMaxExposure_stops = 10;
 
 inline constexpr uint32_t kMaxFilmSamples = 256;
-inline constexpr uint32_t kFilmSamples = 32;  ///< of an effect that says none
+inline constexpr uint32_t kFilmSamples = 32;  ///< default with an effect
 inline constexpr double kMaxShutter_s = 1000;
 inline constexpr double kMinAperture = 0.5, kMaxAperture = 64;
 inline constexpr double kMinFocus_m = 1e-3, kMaxFocus_m = 1e6;

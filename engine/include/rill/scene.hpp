@@ -236,7 +236,7 @@ struct Camera {
 
 /// Appearance of rendered pictures.
 struct Look {
-  std::string preset = "water";            ///< water, milk, ink, clay or pool
+  std::string preset = "water";            ///< one of fluidLooks()
   std::string surface = "auto";            ///< surface reconstruction: auto, planes, curvature_flow or narrow_range
   std::string sky = "studio";              ///< studio, day or sunset; not used where there is an environment map
   std::string stage = "grid";              ///< around the fluid in final pictures: grid or tank
