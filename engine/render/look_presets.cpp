@@ -7,35 +7,6 @@
 #include "rill/fluid_renderer.hpp"
 
 namespace rill {
-namespace {
-
-struct Preset {
-  std::string_view name;
-  FluidLook look;
-};
-
-// Measured coefficients are those at 610, 550 and 465 nm.
-constexpr std::array kPresets{
-    Preset{"water", {}},
-    Preset{"milk", {.absorption = {55, 60, 75}, .scatter = {0.84f, 0.82f, 0.76f}, .refractionIndex = 1.35f, .aeration = 0}},
-    Preset{"ink", {.absorption = {60, 42, 16}, .scatter = {0.004f, 0.008f, 0.03f}, .aeration = 0}},
-    Preset{"clay", {.scatter = {0.52f, 0.30f, 0.20f}, .opaque = true, .refractionIndex = 1.3f, .highlight = 12, .sun = 1, .aeration = 0}},
-    Preset{"pool", {.absorption = {0.264f, 0.0565f, 0.0101f}, .scatter = {0.0006f, 0.0043f, 0.050f}}},
-    Preset{"sea", {.absorption = {0.328f, 0.12f, 0.20f}, .scatter = {0.0127f, 0.0355f, 0.0228f}, .refractionIndex = 1.34f}},
-    Preset{"river", {.absorption = {50.8f, 51.3f, 53.8f}, .scatter = {0.340f, 0.248f, 0.093f}}},
-    Preset{"honey", {.absorption = {8, 22, 90}, .scatter = {0.24f, 0.107f, 0.031f}, .refractionIndex = 1.49f, .aeration = 0}},
-    Preset{"lava",
-           {.absorption = {90, 50, 30},
-            .scatter = {0.16f, 0.06f, 0.03f},
-            .emission = {1.155f, 0.145f, 0},
-            .refractionIndex = 1.25f,
-            .highlight = 60,
-            .sun = 2,
-            .aeration = 0}},
-};
-static_assert(std::ranges::equal(kPresets, kLookNames, {}, &Preset::name));
-
-}  // namespace
 
 std::span<const std::string_view> fluidLooks() { return kLookNames; }
 
@@ -50,8 +21,27 @@ std::optional<SurfaceMethod> surfaceMethod(std::string_view name) {
 }
 
 std::optional<FluidLook> fluidLook(std::string_view name) {
-  const auto* found = std::ranges::find(kPresets, name, &Preset::name);
-  return found == kPresets.end() ? std::nullopt : std::optional(found->look);
+  // In the order of kLookNames. Measured coefficients are those at 610, 550 and 465 nm. Not static: the library has no global state.
+  const std::array<FluidLook, kLookNames.size()> looks{{
+      {},
+      {.absorption = {55, 60, 75}, .scatter = {0.84f, 0.82f, 0.76f}, .refractionIndex = 1.35f, .aeration = 0},
+      {.absorption = {60, 42, 16}, .scatter = {0.004f, 0.008f, 0.03f}, .aeration = 0},
+      {.scatter = {0.52f, 0.30f, 0.20f}, .opaque = true, .refractionIndex = 1.3f, .highlight = 12, .sun = 1, .aeration = 0},
+      {.absorption = {0.264f, 0.0565f, 0.0101f}, .scatter = {0.0006f, 0.0043f, 0.050f}},
+      {.absorption = {0.328f, 0.12f, 0.20f}, .scatter = {0.0127f, 0.0355f, 0.0228f}, .refractionIndex = 1.34f},
+      {.absorption = {50.8f, 51.3f, 53.8f}, .scatter = {0.340f, 0.248f, 0.093f}},
+      {.absorption = {8, 22, 90}, .scatter = {0.24f, 0.107f, 0.031f}, .refractionIndex = 1.49f, .aeration = 0},
+      {.absorption = {90, 50, 30},
+       .scatter = {0.16f, 0.06f, 0.03f},
+       .emission = {1.155f, 0.145f, 0},
+       .refractionIndex = 1.25f,
+       .highlight = 60,
+       .sun = 2,
+       .aeration = 0},
+  }};
+  const auto* found = std::ranges::find(kLookNames, name);
+  if (found == kLookNames.end()) return std::nullopt;
+  return looks[static_cast<size_t>(found - kLookNames.begin())];
 }
 
 }  // namespace rill

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/resources.hpp"
+#include "views/scene_buffers.hpp"
 
 namespace rill {
 namespace {
@@ -95,6 +96,7 @@ Expected<std::optional<GlassTank>> GlassTank::create(Device& device, const Domai
                                                      const TargetFormats& formats, bool environment) {
   const std::vector<GlassQuad> quads = glassQuads(domain, origin);
   if (quads.empty()) return std::optional<GlassTank>{};
+  bringViewShaders(device);
   GlassTank out;
   out.count_ = static_cast<uint32_t>(quads.size());
   auto buffer = createBuffer(device, "view: glass", quads.size() * sizeof(GlassQuad), MemoryKind::Upload);

@@ -30,11 +30,13 @@ namespace rill::offline {
 /// Limit of Options::exposure_stops, in both directions.
 inline constexpr double kMaxExposure_stops = 10;
 
-inline constexpr uint32_t kMaxFilmSamples = 256;
-inline constexpr uint32_t kFilmSamples = 32;  ///< default with an effect
-inline constexpr double kMaxShutter_s = 1000;
-inline constexpr double kMinAperture = 0.5, kMaxAperture = 64;
-inline constexpr double kMinFocus_m = 1e-3, kMaxFocus_m = 1e6;
+inline constexpr uint32_t kMaxFilmSamples = 256;  ///< limit of Film::samples
+inline constexpr uint32_t kFilmSamples = 32;      ///< default with an effect
+inline constexpr double kMaxShutter_s = 1000;     ///< limit of Film::shutter_s
+inline constexpr double kMinAperture = 0.5;       ///< least Film::aperture
+inline constexpr double kMaxAperture = 64;        ///< largest Film::aperture
+inline constexpr double kMinFocus_m = 1e-3;       ///< least Film::focus_m
+inline constexpr double kMaxFocus_m = 1e6;        ///< largest Film::focus_m
 
 /// Effects of a camera on the view `final`: the mean of several pictures in linear light. They do not affect the simulation.
 struct Film {
