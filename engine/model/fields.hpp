@@ -1,22 +1,19 @@
 #pragma once
 // The table of scene keys: parser, JSON Schema, --set, the documented key table and the viewer's sliders are derived from it by
 // forEachField<FluidSettings>(...). Rows of `fluid` and `solver` are in fluid_fields.hpp, those of `emitters` and `drains` in
-// flow_fields.hpp. Defaults are the member initializers in rill/scene.hpp.
+// flow_fields.hpp, those of `look` in look_fields.hpp. Defaults are the member initializers in rill/scene.hpp.
 #include <array>
 #include <filesystem>
 
-#include "core/look_names.hpp"
 #include "model/field.hpp"
 #include "model/flow_fields.hpp"
 #include "model/fluid_fields.hpp"
+#include "model/look_fields.hpp"
 #include "rill/scene.hpp"
 
 namespace rill::model {
 
 inline constexpr std::array<std::string_view, 6> kSideWords{"-x", "+x", "-y", "+y", "-z", "+z"};  // bits of SideMask
-inline constexpr std::array<std::string_view, 3> kSkyWords{"studio", "day", "sunset"};
-inline constexpr std::array<std::string_view, 2> kStageWords{"grid", "tank"};
-inline constexpr std::array<std::string_view, 4> kSurfaceWords{"auto", "planes", "curvature_flow", "narrow_range"};
 
 /// The newest version of scene files that can be read.
 inline constexpr std::string_view kSceneVersion = "0.2";
@@ -233,42 +230,6 @@ struct Table<Camera> {
       Field{Info{.key = "target", .unit = "m", .help = "point at the center of the picture [x, y, z]; must differ from eye"},
             &Camera::target},
       Field{Info{.key = "fov_y_deg", .unit = "degrees", .range = inside(0, 180), .help = "vertical field of view"}, &Camera::fov_y_deg}};
-};
-
-template <>
-struct Table<Look> {
-  static constexpr std::string_view about = "Appearance of rendered pictures";
-  static constexpr std::array one_of = kNoWords;
-  static constexpr std::tuple fields{
-      Field{Info{.key = "preset", .help = "appearance of the fluid: absorption, scattering and roughness", .words = kLookNames},
-            &Look::preset},
-      Field{Info{.key = "surface",
-                 .help = "surface reconstruction; auto: planes, the most accurate method in rill-bench render",
-                 .words = kSurfaceWords},
-            &Look::surface},
-      Field{Info{.key = "sky",
-                 .help = "built-in sky: studio, soft lights before a dark backdrop, or day or sunset, clear skies with their sun",
-                 .words = kSkyWords,
-                 .since = "0.2"},
-            &Look::sky},
-      Field{Info{.key = "stage",
-                 .help = "around the fluid in the view final: grid, the edges of the domain on a checkered floor, or tank, its closed "
-                         "sides as panes of glass around a pale floor, on a dark table",
-                 .words = kStageWords,
-                 .since = "0.2"},
-            &Look::stage},
-      Field{Info{.key = "environment",
-                 .help = "equirectangular environment map (.hdr, or .png or .jpg as sRGB) in place of the sky; the path is "
-                         "relative to the scene file, at most 8192x4096 pixels"},
-            &Look::environment},
-      Field{Info{.key = "whitewater",
-                 .help = "true: foam, spray and bubbles are simulated as diffuse particles; false: drops and thin sheets are drawn white",
-                 .since = "0.2"},
-            &Look::whitewater},
-      Field{Info{.key = "caustics",
-                 .help = "true: the fluid's surface refracts sunlight onto the floor and solids; false: fluid casts a plain shadow",
-                 .since = "0.2"},
-            &Look::caustics}};
 };
 
 template <>

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/look_names.hpp"
 #include "core/words.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/vulkan_error.hpp"
@@ -114,7 +115,7 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
     if (!method) return Error{ErrorKind::BadInput, "look.surface: unknown method " + inQuotes(scene_.look.surface)};
     if (std::ranges::find(skies(), scene_.look.sky) == skies().end())
       return Error{ErrorKind::BadInput, "look.sky: unknown sky " + inQuotes(scene_.look.sky)};
-    if (scene_.look.stage != "grid" && scene_.look.stage != "tank")
+    if (std::ranges::find(kStageNames, scene_.look.stage) == kStageNames.end())
       return Error{ErrorKind::BadInput, "look.stage: unknown stage " + inQuotes(scene_.look.stage)};
     look_ = *look;
     look_.surface = *method;

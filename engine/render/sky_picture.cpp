@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/look_names.hpp"
 #include "render/environment_texels.hpp"
 #include "rill/environment.hpp"
 
@@ -29,7 +30,7 @@ struct Sky {
 };
 constexpr std::string_view kStudio = "studio";
 constexpr Sky kSkies[] = {{"day", {-0.36, 1.0, 0.52}, 2.0}, {"sunset", {-0.75, 0.16, -0.66}, 3.5}};
-constexpr std::array<std::string_view, 3> kSkyNames = {kStudio, kSkies[0].name, kSkies[1].name};
+static_assert(kSkyNames == std::array{kStudio, kSkies[0].name, kSkies[1].name});
 
 /// The distribution of Perez et al.: `polar` from the zenith and `apart` from the sun, rad.
 struct Perez {

@@ -20,7 +20,7 @@ const float kEdgeOn = 0.05;                // least cosine between the sun and a
 const int kExitSteps = 1, kHitSteps = 16;  // along a ray
 
 // Depth of a surface at a place of the sun's view in texels, and its change per m: between the texels of one surface, the outermost there.
-// No depth where there is none. `outwards`: 1 of the first surface, -1 of the last.
+// noDepth() where no texel has a surface. `outwards`: 1 of the first surface, -1 of the last.
 vec3 between(vec2 at, vec4 a, vec4 b, vec4 c, vec4 d, float outwards) {
   const vec2 part = fract(at);
   vec4 shares = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);

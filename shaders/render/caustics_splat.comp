@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 2) buffer Sums { uint sums[]; };
 const float kSunDisc = 0.0093;  // rad, of its diameter
 const float kWidest = 2.5;      // texels, half the width of a beam at most; wider ones are summed in coarse texels
 
-// To a neighbor's place on the same receiver; false if there is none.
+// To a neighbor's place; false where it has no photon on the same receiver.
 bool beamTo(ivec2 other, vec2 place, float path, ivec2 size, out vec2 beam) {
   beam = vec2(0.0);
   if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) return false;

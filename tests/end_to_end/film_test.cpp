@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rill/offline.hpp"
+#include "support/half_pixels.hpp"
 
 namespace rill::offline {
 namespace film_test {
@@ -23,8 +24,6 @@ struct Light {
   }
 };
 
-double numberOf(uint16_t half) { return std::ldexp(half < 1024 ? half : (half & 1023) + 1024, half < 1024 ? -24 : (half >> 10) - 25); }
-
 template <class Source>
 Light lightOf(Source& source, uint32_t width, uint32_t height) {
   const auto image = source.renderLinear(width, height);
@@ -32,7 +31,8 @@ Light lightOf(Source& source, uint32_t width, uint32_t height) {
   Light light{width, height, {}};
   if (!image) return light;
   for (size_t i = 0; i < image->rgba.size(); i += 4)
-    light.value.push_back((numberOf(image->rgba[i]) + numberOf(image->rgba[i + 1]) + numberOf(image->rgba[i + 2])) / 3);
+    light.value.push_back((test::halfValue(image->rgba[i]) + test::halfValue(image->rgba[i + 1]) + test::halfValue(image->rgba[i + 2])) /
+                          3);
   return light;
 }
 

@@ -14,6 +14,7 @@
 #include "render/fluid_renderer_impl.hpp"
 #include "rill/scene_io.hpp"
 #include "support/gpu_test.hpp"
+#include "support/half_pixels.hpp"
 #include "support/temporary_folder.hpp"
 #include "views/scenery.hpp"
 
@@ -300,22 +301,13 @@ class EnvironmentOnGpu : public GpuTest {
     const BufferRef texels = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
     targets = scenery_->addTo(graph, fluid, targets, view, look, 0, texels);
     targets = renderer.addTo(graph, fluid, targets, view, look, true, texels);
-    BufferRef colors = graph.create("colors", {uint64_t{kWidth} * kHeight * 8});
-    graph.pass("copy", [&](Pass& pass) {
-      pass.read(targets.color, Use::CopySource);
-      colors = pass.write(colors, Use::CopyTarget);
-      return [=](Commands& commands) { commands.copy(targets.color, colors); };
-    });
-    const Ticket ticket = graph.readback(colors);
+    const Ticket ticket = readbackHalves(graph, targets.color, uint64_t{kWidth} * kHeight);
     run(graph);
     copied_ = false;
     for (const PassReport& pass : graph.report()) copied_ = copied_ || pass.name == "environment upload";
     std::vector<Rgb> out;
     const auto halves = read<uint16_t>(graph, ticket);
-    const auto number = [](uint16_t half) {
-      return std::ldexp(half < 1024 ? half : (half & 1023) + 1024, half < 1024 ? -24 : (half >> 10) - 25);
-    };
-    for (size_t k = 0; k < halves.size(); k += 4) out.push_back({number(halves[k]), number(halves[k + 1]), number(halves[k + 2])});
+    for (size_t k = 0; k < halves.size(); k += 4) out.push_back({halfValue(halves[k]), halfValue(halves[k + 1]), halfValue(halves[k + 2])});
     return out;
   }
   static CameraView looking(double x, double y, double z) {

@@ -9,6 +9,7 @@
 
 #include "render/fluid_renderer_impl.hpp"
 #include "support/gpu_test.hpp"
+#include "support/half_pixels.hpp"
 #include "views/scenery.hpp"
 
 namespace rill::test {
@@ -113,17 +114,11 @@ class GlassTankOnGpu : public GpuTest {
     const BufferRef texels = environment->addTo(graph);
     targets = (*made)->addTo(graph, fluid, targets, view, look, 0, texels);
     targets = (*made)->addOverFluid(graph, targets, view, look, 0, {}, texels);
-    BufferRef colors = graph.create("colors", {uint64_t{kWidth} * kHeight * 8});
-    graph.pass("copy", [&](Pass& pass) {
-      pass.read(targets.color, Use::CopySource);
-      colors = pass.write(colors, Use::CopyTarget);
-      return [=](Commands& commands) { commands.copy(targets.color, colors); };
-    });
-    const Ticket ticket = graph.readback(colors);
+    const Ticket ticket = readbackHalves(graph, targets.color, uint64_t{kWidth} * kHeight);
     run(graph);
     std::vector<double> out;
     const auto halves = read<uint16_t>(graph, ticket);
-    for (size_t k = 0; k < halves.size(); k += 4) out.push_back(std::ldexp((halves[k] & 1023) + 1024, (halves[k] >> 10) - 25));
+    for (size_t k = 0; k < halves.size(); k += 4) out.push_back(halfValue(halves[k]));
     return out;
   }
 
