@@ -2,17 +2,11 @@
 // scenes of many solids have; else every solid may. Needs `params` and the storage array `solids`.
 #ifndef RILL_CULL_SOLIDS_GLSL
 #define RILL_CULL_SOLIDS_GLSL
+#include "shared/ordered_floats.glsl"
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
 shared uint groupLow[3], groupHigh[3], groupSolids[kMaxSolids / 32u];
-
-// Numbers in the order of the floats.
-uvec3 ordered(vec3 x) {
-  uvec3 bits = floatBitsToUint(x);
-  return mix(bits | 0x80000000u, ~bits, notEqual(bits & 0x80000000u, uvec3(0u)));
-}
-vec3 fromOrdered(uvec3 bits) { return uintBitsToFloat(mix(~bits, bits & 0x7fffffffu, notEqual(bits & 0x80000000u, uvec3(0u)))); }
 
 // By all invocations of the workgroup; `counts`: x is that of a particle.
 void cullSolids(vec3 x, bool counts) {

@@ -1,10 +1,8 @@
 // What the passes of caustics share.
-#extension GL_EXT_control_flow_attributes : require
 #include "render/caustics_records.h"
+#include "shared/dont_unroll.glsl"
 #include "shared/no_depth.h"
-
-// For loops with a constant count: software drivers take seconds to compile them unrolled.
-#define RILL_LOOP [[dont_unroll]]
+#include "shared/ordered_floats.glsl"
 
 layout(std140, set = 0, binding = 0) uniform Frame { CausticsRecord sun; };
 
@@ -12,12 +10,7 @@ uint invocation() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroup
 bool inView(ivec2 texel) { return all(greaterThanEqual(texel, ivec2(0))) && texel.x < int(sun.width) && texel.y < int(sun.height); }
 uint texelIndex(ivec2 texel) { return uint(texel.y) * sun.width + uint(texel.x); }
 
-// Floats as integers of the same order.
-uint orderOf(float x) {
-  const uint bits = floatBitsToUint(x);
-  return bits ^ ((bits >> 31) != 0u ? 0xFFFFFFFFu : 0x80000000u);
-}
-float ofOrder(uint key) { return uintBitsToFloat(key ^ ((key >> 31) != 0u ? 0x80000000u : 0xFFFFFFFFu)); }
+// Depths as ordered() has them.
 const uint kNoFirst = 0xFFFFFFFFu, kNoLast = 0u;
 
 // The share of a texel's light that meets the fluid, by the mean of what spheres cover around it. The spheres reach beyond the fluid.

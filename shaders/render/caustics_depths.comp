@@ -30,8 +30,9 @@ void main() {
       const vec2 off = vec2(x, y) * sun.texel - center.xy;
       const float inside = radius * radius - dot(off, off);
       if (inside <= 0.0) continue;
-      const uint texel = texelIndex(ivec2(x, y)), near = orderOf(center.z - sqrt(inside)), far = orderOf(center.z + sqrt(inside));
-      if (near < ATOMIC_LOAD(first[texel])) atomicMin(first[texel], near);
-      if (far > ATOMIC_LOAD(last[texel])) atomicMax(last[texel], far);
+      const uint texel = texelIndex(ivec2(x, y));
+      const uvec3 ends = ordered(vec3(center.z - sqrt(inside), center.z + sqrt(inside), 0.0));
+      if (ends.x < ATOMIC_LOAD(first[texel])) atomicMin(first[texel], ends.x);
+      if (ends.y > ATOMIC_LOAD(last[texel])) atomicMax(last[texel], ends.y);
     }
 }

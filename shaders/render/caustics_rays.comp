@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/caustics.glsl"
+#include "render/fresnel.glsl"
 
 layout(local_size_x = kCausticGroup) in;
 layout(std430, set = 0, binding = 1) readonly buffer Smooth { vec4 smoothed[]; };
@@ -54,12 +55,6 @@ vec2 bodyAt(vec2 at) {
              mix(smoothed[cornerOf(at, ivec2(0, 1))].zw, smoothed[cornerOf(at, ivec2(1, 1))].zw, part.x), part.y);
 }
 
-// Transmittance of unpolarized light from index 1 to `index`, at this cosine before and `inner` after.
-float transmitted(float cosine, float inner, float index) {
-  const float s = (cosine - index * inner) / (cosine + index * inner), p = (inner - index * cosine) / (inner + index * cosine);
-  return 1.0 - 0.5 * (s * s + p * p);
-}
-
 float alongWorld(int axis, vec3 p) { return dot(sun.world[axis].xyz, p) + sun.world[axis].w; }
 
 #ifdef SOLIDS
@@ -103,7 +98,7 @@ void main() {
   Path path;
   path.from = vec3(at * sun.texel, first.x + kAbove * sun.spacing / max(cosine, 0.3));
   path.along = normalize(refract(vec3(0.0, 0.0, 1.0), normal, 1.0 / refraction));
-  float share = coverage * transmitted(cosine, sqrt(1.0 - (1.0 - cosine * cosine) / (refraction * refraction)), refraction);
+  float share = coverage * (1.0 - fresnel(cosine, refraction));
 #ifdef SOLIDS
   if (hidden(path.from, 0.5 * sun.spacing)) return;
 #endif
@@ -132,7 +127,7 @@ void main() {
     vec3 onwards = dot(bent, bent) > 0.5 ? bent : reflect(path.along, exit_normal);
     if (dot(sun.world[1].xyz, onwards) > -1e-2 && dot(bent, bent) < 0.5) onwards = path.along;
     path.onwards = normalize(mix(path.along, onwards, dry));
-    if (outer > 0.0) leaving = mix(1.0, transmitted(outer, dot(path.along, exit_normal), refraction), dry);
+    if (outer > 0.0) leaving = mix(1.0, 1.0 - fresnel(outer, refraction), dry);
   }
   const float dry_floor = toFloor(pointOf(path, path.inside), path.onwards);
   float whole = dry > 0.0 ? path.inside + dry_floor : floor_at;

@@ -28,7 +28,7 @@ vec4 texelAt(ivec2 at) {
 #else
   const float meters = float(thickness[index]) * sun.thickness;
   if (first[index] == kNoFirst) return vec4(noDepth(), noDepth(), 0.0, meters);
-  return vec4(ofOrder(first[index]), ofOrder(last[index]), 1.0, meters);
+  return vec4(fromOrdered(uvec3(first[index], last[index], 0u)).xy, 1.0, meters);
 #endif
 }
 

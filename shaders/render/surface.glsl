@@ -1,11 +1,8 @@
 // Camera, spheres and sample grid for all shaders of the surface.
-#extension GL_EXT_control_flow_attributes : require
 #include "render/surface_records.h"
 #include "shared/active.glsl"
+#include "shared/dont_unroll.glsl"
 #include "shared/no_depth.h"
-
-// For loops with a constant count: software drivers take seconds to compile them unrolled.
-#define RILL_LOOP [[dont_unroll]]
 
 #ifndef RILL_PUSH_MORE
 #define RILL_PUSH_MORE

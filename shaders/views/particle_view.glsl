@@ -1,11 +1,8 @@
 // Camera and spheres for all shaders of the particle view.
-#extension GL_EXT_control_flow_attributes : require
 #include "shared/active.glsl"
+#include "shared/dont_unroll.glsl"
 #include "views/particle_records.h"
 #include "shared/no_depth.h"
-
-// For loops with a constant count: software drivers take seconds to compile them unrolled.
-#define RILL_LOOP [[dont_unroll]]
 
 layout(push_constant) uniform Push { ViewPush view; };
 
