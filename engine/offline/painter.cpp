@@ -211,12 +211,22 @@ ImageRef Painter::addLight(Graph& graph, const FluidState& fluid, const FluidVie
   if (foams) look.aeration = 0;  // whitewater comes in its place
   targets = renderer.addTo(graph, fluid, targets, seen, look, true, environment);
   if (foams)
-    targets = whitewater_->addTo(graph, white.state, targets, renderer.last.push,
-                                 lookRecord(look_, renderer.last.push, renderer.environment.get()), behind, renderer.last.pixels,
-                                 environment, white.size);
+    targets = whitewater_->addTo(graph,
+                                 {white.state, fluid.origin, behind, renderer.last.pixels,
+                                  addLook(graph, lookRecord(look_, renderer.last.push, renderer.environment.get()))},
+                                 targets, renderer.last.push, environment, exposure(white.size));
   targets =
       scenery_->addOverFluid(graph, targets, seen, look_, time_s, fluid.capacity > 0 ? renderer.last.pixels : BufferRef{}, environment);
   return targets.color;
+}
+
+/// A sample of a shutter is as long as its part of the time that this is open, so that the streaks of all samples join.
+WhitewaterExposure Painter::exposure(double size) const {
+  const CameraView view = sceneCamera(scene_, start_, 1);
+  return {.size = size,
+          .seconds = film_.shutter_s > 0 ? film_.shutter_s / sampleCount(film_) : scene_.look.spray_exposure,
+          .turn = {0, orbit_degPerS_ * std::numbers::pi / 180, 0},
+          .about = {view.target[0], view.target[1], view.target[2]}};
 }
 
 uint32_t Painter::samples(std::string_view name) const {

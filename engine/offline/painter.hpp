@@ -89,6 +89,7 @@ class Painter {
   CameraView camera(uint32_t width, uint32_t height, double time_s) const;
   Error environmentError(const Error& error) const;
   Expected<void> prepareFilm(Device& device, uint32_t width, uint32_t height);
+  WhitewaterExposure exposure(double size) const;
   ImageRef addLight(Graph& graph, const FluidState& fluid, const FluidView& view, double time_s, const DrawnWhitewater& white);
 
   const Scene& scene_;

@@ -1,8 +1,9 @@
 #include "views/whitewater_view.hpp"
 
+#include <span>
+
 #include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
-#include "render/look_record.hpp"
 #include "sort/dispatches.hpp"
 
 namespace rill {
@@ -36,29 +37,45 @@ BufferRef WhitewaterView::addScene(Graph& graph, ImageRef depth, const SurfacePu
   return scene;
 }
 
-SceneTargets WhitewaterView::addTo(Graph& graph, const WhitewaterState& white, SceneTargets targets, const SurfacePush& view,
-                                   const look::LookRecord& look, BufferRef scene, BufferRef pixels, BufferRef environment,
-                                   double size) const {
-  struct SplatPush {
-    SurfacePush view;
-    float size;
-  };
-  const BufferRef record = addLook(graph, look);
+BufferRef WhitewaterView::addDots(Graph& graph, const Input& input, const SurfacePush& view, const WhitewaterExposure& exposure) const {
+  const Double3& turn = exposure.turn;
+  const double x = exposure.about.x - input.origin.x, y = exposure.about.y - input.origin.y, z = exposure.about.z - input.origin.z;
+  const auto number = [](double value) { return static_cast<float>(value); };
+  const WhiteExposure values{.size = number(exposure.size),
+                             .seconds = number(exposure.seconds),
+                             .driftX = number(turn.z * y - turn.y * z),
+                             .driftY = number(turn.x * z - turn.z * x),
+                             .driftZ = number(turn.y * x - turn.x * y),
+                             .turnX = number(turn.x),
+                             .turnY = number(turn.y),
+                             .turnZ = number(turn.z)};
+  BufferRef record = graph.create("whitewater exposure", {sizeof values});
+  graph.pass("whitewater exposure", [&](Pass& pass) {
+    record = pass.write(record, Use::CopyTarget, true);
+    return [record, values](Commands& commands) { commands.update(record, std::as_bytes(std::span(&values, 1))); };
+  });
   BufferRef dots = graph.create("whitewater dots", {uint64_t{view.width} * view.height * kPixelBytes});
   addFill(graph, "whitewater dots clear", {{&dots, 0}});
-  addDispatch(graph, "whitewater splat", splat_, divideUp(white.room, kWhiteSplatGroup), SplatPush{view, static_cast<float>(size)},
-              {{"look", record},
-               {"place", std::as_const(white.place)},
-               {"motion", std::as_const(white.motion)},
-               {"counts", std::as_const(white.counts)},
-               {"surface", std::as_const(pixels)},
-               {"scene_depth", std::as_const(scene)},
+  addDispatch(graph, "whitewater splat", splat_, divideUp(input.white.room, kWhiteSplatGroup), view,
+              {{"look", std::as_const(input.look)},
+               {"exposure", std::as_const(record)},
+               {"place", std::as_const(input.white.place)},
+               {"motion", std::as_const(input.white.motion)},
+               {"counts", std::as_const(input.white.counts)},
+               {"surface", std::as_const(input.pixels)},
+               {"scene_depth", std::as_const(input.scene)},
                {"dots", dots}});
+  return dots;
+}
+
+SceneTargets WhitewaterView::addTo(Graph& graph, const Input& input, SceneTargets targets, const SurfacePush& view, BufferRef environment,
+                                   const WhitewaterExposure& exposure) const {
+  const BufferRef dots = addDots(graph, input, view, exposure);
   graph.pass("whitewater blend", [&](Pass& pass) {
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
     const Kernel kernel =
-        bindNamed(pass, blend_, {{"look", record}, {"dots", std::as_const(dots)}, {"environment", std::as_const(environment)}});
+        bindNamed(pass, blend_, {{"look", std::as_const(input.look)}, {"dots", dots}, {"environment", std::as_const(environment)}});
     return [kernel, view](Commands& commands) {
       commands.viewport(view.left, view.top, view.width, view.height);
       commands.draw(kernel, 3, 1, view);

@@ -1,13 +1,20 @@
 #pragma once
 // Draws foam, spray and bubbles into a picture: soft dots whose light does not depend on their order.
 #include "render/environment.hpp"
-#include "render/look_records.h"
 #include "render/surface_records.h"
 #include "rill/fluid_renderer.hpp"
 #include "rill/whitewater.hpp"
 #include "views/whitewater_view_records.h"
 
 namespace rill {
+
+/// How whitewater is seen.
+struct WhitewaterExposure {
+  double size = 0;            ///< radius of a particle, m
+  double seconds = 0;         ///< in which spray draws streaks; 0: dots
+  Double3 turn = {0, 0, 0};   ///< angular velocity of the camera, rad/s
+  Double3 about = {0, 0, 0};  ///< a point that it turns about, m
+};
 
 class WhitewaterView {
  public:
@@ -18,10 +25,19 @@ class WhitewaterView {
 
   /// Copies the depth of the scene, before the fluid is drawn.
   BufferRef addScene(Graph& graph, ImageRef depth, const surface::SurfacePush& view) const;
-  /// Draws over the fluid. `scene`: of addScene(); `pixels`: of the fluid's surface; `environment`: its texels, if any; `size`: radius of
-  /// a particle, m.
-  SceneTargets addTo(Graph& graph, const WhitewaterState& white, SceneTargets targets, const surface::SurfacePush& view,
-                     const look::LookRecord& look, BufferRef scene, BufferRef pixels, BufferRef environment, double size) const;
+  /// What the picture is drawn from.
+  struct Input {
+    WhitewaterState white;
+    Double3 origin;    ///< of its positions
+    BufferRef scene;   ///< of addScene()
+    BufferRef pixels;  ///< of the fluid's surface
+    BufferRef look;    ///< of addLook()
+  };
+  /// Optical depth of each pixel: kWhiteLayers words, in 1 / kWhiteOpacity.
+  BufferRef addDots(Graph& graph, const Input& input, const surface::SurfacePush& view, const WhitewaterExposure& exposure) const;
+  /// Draws over the fluid. `environment`: its texels, if any.
+  SceneTargets addTo(Graph& graph, const Input& input, SceneTargets targets, const surface::SurfacePush& view, BufferRef environment,
+                     const WhitewaterExposure& exposure) const;
 
  private:
   const ComputePipeline *scene_ = nullptr, *splat_ = nullptr;

@@ -9,5 +9,15 @@ RILL_CONST uint kWhiteLayers = 4u;          // words a pixel: before the surface
 RILL_CONST float kWhiteOpacity = 4096.0f;   // counts of an optical depth of 1
 RILL_CONST float kWhiteMaxPixels = 24.0f;   // largest radius of a dot
 
+RILL_CONST float kWhiteMaxStreak = 24.0f, kWhiteMaxStreakPixels = 96.0f;  // longest streak: radii of its dot, and pixels
+
+// How long spray is exposed, and the motion of the camera that it is seen from.
+struct WhiteExposure {
+  float size;                    // m, radius of a particle's parcel
+  float seconds;
+  float driftX, driftY, driftZ;  // m/s, of what the camera is fixed to at the origin of positions
+  float turnX, turnY, turnZ;     // rad/s
+};
+
 RILL_RECORDS_END
 #endif

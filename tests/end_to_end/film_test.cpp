@@ -279,6 +279,22 @@ TEST(FilmPicture, WhitewaterMovesToo) {
   EXPECT_EQ(std::ranges::count_if(stats->passes, [](const PassTime& pass) { return pass.name == "motion whitewater"; }), 1);
 }
 
+TEST(FilmPicture, ShutterTakesThePlaceOfTheExposureOfSpray) {
+  const auto picture = [](double exposure_s, const Film& film) {
+    Scene scene = sceneOf(
+        R"({"rill": "0.2", "domain": {"min": [0, 0, 0], "max": [1.8, 1.5, 0.6], "open": ["+y"]}, "fluid": {"spacing": 0.06},
+        "fill": [{"box": {"min": [0, 0, 0], "max": [0.6, 0.9, 0.6]}}], "look": {"whitewater": true}})");
+    scene.look.spray_exposure = exposure_s;
+    Simulation run = opened(scene, film);
+    EXPECT_TRUE(run.advance(0.8));
+    return run.render("final", 320, 180)->rgba;
+  };
+  const auto streaks = picture(0.02, {}), dots = picture(0, {});
+  EXPECT_EQ(picture(0.9, {.samples = 1, .shutter_s = 0.02}), streaks);
+  EXPECT_NE(streaks, dots);
+  EXPECT_EQ(picture(0.02, {}), streaks) << "bits are equal from run to run";
+}
+
 TEST(FilmPicture, OtherViewsAreNotAffected) {
   Simulation film = opened(dam(0.05), {.samples = 4}), plain = opened(dam(0.05));
   for (const char* view : {"particles", "depth"}) EXPECT_EQ(film.render(view, 64, 36)->rgba, plain.render(view, 64, 36)->rgba) << view;

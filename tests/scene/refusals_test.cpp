@@ -156,10 +156,10 @@ TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
       {with(R"("fill": [{"box": {"min": [0, 0, 0], "mx": [1, 1, 1]}}])"), ": fill[0].box.mx: unknown key; did you mean \"max\"?"},
       {with(R"("look": {"zzzzzz": 1})"),
        ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", "
-       "\"whitewater\", \"caustics\""},
+       "\"whitewater\", \"spray_exposure\", \"caustics\""},
       {with(R"("look": {"a.b\nc": 1})"),
        ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", \"whitewater\", "
-       "\"caustics\""},
+       "\"spray_exposure\", \"caustics\""},
   });
   EXPECT_EQ(parseError(with(R"("extras": {"anything": [1, {"goes": null}]}, "$schema": "scene.schema.json")")), "accepted");
 }

@@ -242,6 +242,7 @@ struct Look {
   std::string stage = "grid";              ///< around the fluid in final pictures: grid or tank
   std::filesystem::path environment = {};  ///< environment map; an absolute path once the scene is loaded; empty: the sky
   bool whitewater = false;                 ///< foam, spray and bubbles as diffuse particles; see rill/whitewater.hpp
+  double spray_exposure = 0.008;           ///< s, 0 to 1: how long the streaks of spray are exposed without a shutter; 0: round dots
   bool caustics = false;                   ///< sunlight is refracted by the fluid's surface onto floor and solids
 };
 
