@@ -94,7 +94,8 @@ FluidState FluidImpl::present(Graph& graph) const {
   state.velocity = importWhole(graph, "velocities", buffer(FluidArray::Velocity));
   state.id = importWhole(graph, "ids", buffer(FluidArray::Id));
   state.countBuffer = state.control = importWhole(graph, "control", buffer(FluidArray::Control));
-  if (drawsFromRecords(setup)) state.solids = importWhole(graph, "solids", buffer(FluidArray::Solids));
+  if (!setup.solids.empty()) state.boundaries = importWhole(graph, "solids", buffer(FluidArray::Solids));
+  if (drawsFromRecords(setup)) state.solids = state.boundaries;
   if (!setup.meshWords.empty()) state.meshWords = importWhole(graph, "fields of meshes", buffer(FluidArray::MeshWords));
   if (setup.loads) state.loads = importWhole(graph, "loads on solids", buffer(FluidArray::SolidLoads));
   return state;
@@ -186,7 +187,8 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.velocity = ref(FluidArray::Velocity);
   state.id = ref(FluidArray::Id);
   state.countBuffer = state.control = ref(FluidArray::Control);
-  if (drawsFromRecords(setup)) state.solids = ref(FluidArray::Solids);
+  if (!setup.solids.empty()) state.boundaries = ref(FluidArray::Solids);
+  if (drawsFromRecords(setup)) state.solids = state.boundaries;
   if (!setup.meshWords.empty()) state.meshWords = ref(FluidArray::MeshWords);
   if (setup.loads) state.loads = ref(FluidArray::SolidLoads);
   return state;

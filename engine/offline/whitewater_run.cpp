@@ -28,6 +28,8 @@ WhitewaterDesc whitewaterOf(const Scene& scene, const ParticleSet& particles, ui
           .gravity = scene.gravity,
           .domain = scene.domain,
           .origin = particles.origin,
+          .solids = static_cast<uint32_t>(scene.solids.size()),
+          .meshes = std::ranges::any_of(scene.solids, [](const Solid& s) { return std::holds_alternative<MeshShape>(s.shape); }),
           .seed = scene.seed};
 }
 

@@ -55,6 +55,69 @@ std::vector<WhiteWall> wallsOf(const WhitewaterDesc& desc) {
   return walls;
 }
 
+dvec3 backAgain(const Pose& pose, const Double3& local) { return whiteVector(pose.center) + whiteVector(toScene(pose, local)); }
+
+/// A particle's way in a step, cut off where it first meets each solid.
+struct WhiteWay {
+  dvec3 to, velocity;
+  bool met = false;
+};
+
+/// Where a line first meets a solid from outside, m; as it does the surface of its field, of a mesh.
+std::optional<double> entryOf(const WhiteSolid& solid, const Double3& from, const dvec3& along, double length) {
+  if (!solid.field) return rayEntry(solid.shape, from, {along.x, along.y, along.z});
+  const auto inside = [&](double t) {
+    return solid.field->sample({from.x + t * along.x, from.y + t * along.y, from.z + t * along.z}).distance < 0;
+  };
+  constexpr int kParts = 400;
+  if (inside(0)) return std::nullopt;
+  for (int k = 1; k <= kParts; ++k) {
+    double low = length * (k - 1) / kParts, high = length * k / kParts;
+    if (!inside(high)) continue;
+    for (int n = 0; n < 40; ++n) (inside(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+    return high;
+  }
+  return std::nullopt;
+}
+
+/// From x to `to`: in the frame of a solid, which moves and turns back to its place at the begin of the step, the way is a straight line.
+WhiteWay heldBack(const WhiteFluid& fluid, const dvec3& x, const dvec3& to, const dvec3& velocity, double seconds) {
+  WhiteWay way{to, velocity};
+  for (const WhiteSolid& solid : fluid.solids) {
+    Pose before = solid.pose;
+    for (glm::length_t a = 0; a < 3; ++a) before.center[a] -= seconds * before.velocity[a];
+    before.rotation = turned(before.rotation, -seconds, before.angularVelocity);
+    const Double3 from = localPoint(before, {x.x, x.y, x.z}), end = localPoint(solid.pose, {way.to.x, way.to.y, way.to.z});
+    const dvec3 line = whiteVector(end) - whiteVector(from);
+    const double length = glm::length(line);
+    const dvec3 along = length > 0 ? line / length : dvec3(0);
+    const std::optional<double> entry = length > 0 ? entryOf(solid, from, along, length) : std::nullopt;
+    dvec3 at = way.to;
+    if (entry && *entry <= length) {
+      const dvec3 local = whiteVector(from) + *entry * along;
+      at = backAgain(solid.pose, {local.x, local.y, local.z});
+    } else if (whiteDistance(solid, at).distance >= 0) {
+      continue;
+    }
+    const SurfacePoint surface = whiteDistance(solid, at);
+    const dvec3 normal = whiteVector(surface.normal);
+    way.met = true;
+    way.to = at + (double{kWhiteClearance} * fluid.spacing - surface.distance) * normal;
+    const dvec3 moving = whiteVector(velocityAt(solid.pose, {way.to.x, way.to.y, way.to.z}));
+    way.velocity -= std::min(glm::dot(way.velocity - moving, normal), 0.0) * normal;
+  }
+  return way;
+}
+
+/// Whether no particle can be at x: in a solid, or farther beyond a wall than `slack`.
+bool isBlocked(const WhiteFluid& fluid, const WhitewaterDesc& desc, const dvec3& x, double slack) {
+  for (const WhiteSolid& solid : fluid.solids)
+    if (whiteDistance(solid, x).distance < 0) return true;
+  for (const WhiteWall& wall : wallsOf(desc))
+    if (wall.inward * (x[wall.axis] - wall.at) < -slack) return true;
+  return false;
+}
+
 double unitOf(uint32_t number) { return double(number >> 8) / 16777216; }
 
 dvec3 inBall(uint32_t hash, uint32_t first) {
@@ -66,6 +129,14 @@ dvec3 inBall(uint32_t hash, uint32_t first) {
 double ramp(double x, double low, double high) { return std::clamp((x - low) / (high - low), 0.0, 1.0); }
 
 }  // namespace
+
+SurfacePoint whiteDistance(const WhiteSolid& solid, const dvec3& x) {
+  if (!solid.field) return surfaceAt(solid.shape, solid.pose, {x.x, x.y, x.z});
+  const MeshField::Sample sample = solid.field->sample(localPoint(solid.pose, {x.x, x.y, x.z}));
+  const dvec3 gradient = whiteVector(toScene(solid.pose, sample.gradient));
+  const dvec3 normal = glm::length(gradient) > 1e-6 ? glm::normalize(gradient) : whiteVector(toScene(solid.pose, {0, 1, 0}));
+  return {sample.distance, {normal.x, normal.y, normal.z}};
+}
 
 std::vector<WhiteFlow> whiteFlow(const WhiteFluid& fluid, const WhitewaterDesc& desc) {
   const double h = supportOf(fluid), d = fluid.spacing;
@@ -89,6 +160,11 @@ std::vector<WhiteFlow> whiteFlow(const WhiteFluid& fluid, const WhitewaterDesc& 
     for (const WhiteWall& wall : wallsOf(desc)) {
       const double s = wall.inward * (fluid.positions[i][wall.axis] - wall.at) / h;
       if (std::abs(s) < 1) slope[wall.axis] -= wall.inward * 315.0 / 256 * std::pow(1 - s * s, 4);
+    }
+    for (const WhiteSolid& solid : fluid.solids) {
+      const SurfacePoint surface = whiteDistance(solid, fluid.positions[i]);
+      if (const double s = surface.distance / h; std::abs(s) < 1)
+        slope -= 315.0 / 256 * std::pow(1 - s * s, 4) * whiteVector(surface.normal);
     }
     const double steep = glm::length(slope), trace = spread[0][0] + spread[1][1] + spread[2][2];
     flow.normal = steep > 1e-6 ? -slope / steep : dvec3(0);
@@ -132,6 +208,7 @@ WhiteSample whiteSample(const WhiteFluid& fluid, const WhitewaterDesc& desc, con
     sample.velocity += weight * fluid.velocities[j];
   }
   for (const WhiteWall& wall : wallsOf(desc)) inside *= shareWithin(wall.inward * (point[wall.axis] - wall.at) / supportOf(fluid));
+  for (const WhiteSolid& solid : fluid.solids) inside *= shareWithin(whiteDistance(solid, point).distance / supportOf(fluid));
   if (weights > 0) sample.velocity /= weights;
   sample.share = weights / std::max(inside, 0.1);
   return sample;
@@ -166,6 +243,10 @@ std::vector<WhiteParticle> whiteAdvance(std::span<const WhiteParticle> particles
         to.position[wall.axis] = wall.at;
         lives = lives && kind != kWhiteSpray;
       }
+    const WhiteWay way = heldBack(fluid, p.position, to.position, to.velocity, seconds);
+    to.position = way.to;
+    to.velocity = way.velocity;
+    if (way.met) lives = lives && kind != kWhiteSpray && !isBlocked(fluid, desc, way.to, double{kWhiteClearance} * fluid.spacing);
     if (lives) after.push_back(to);
   }
   return after;
@@ -203,7 +284,10 @@ std::vector<WhiteParticle> whiteBirths(const WhiteFluid& fluid, const Whitewater
       p.position = fluid.positions[order[slot]] + fluid.spacing * inBall(hash, 0) - unitOf(whiteNumber(hash, 3)) * seconds * v;
       for (const WhiteWall& wall : wallsOf(desc))
         if (wall.inward * (p.position[wall.axis] - wall.at) < 0) p.position[wall.axis] = wall.at;
-      p.velocity = v + double{kWhiteSpread} * speed * inBall(hash, 4);
+      const dvec3& origin = fluid.positions[order[slot]];
+      const WhiteWay way = heldBack(fluid, origin, p.position, v + double{kWhiteSpread} * speed * inBall(hash, 4), 0);
+      p.position = way.met && isBlocked(fluid, desc, way.to, 0) ? origin : way.to;
+      p.velocity = way.velocity;
       p.tag = hash << 2 | kind;
       born.push_back(p);
     }

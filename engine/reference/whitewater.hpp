@@ -2,18 +2,32 @@
 // Whitewater: shaders/whitewater in double precision, with a search over all particles.
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "rill/whitewater.hpp"
+#include "shape/pose.hpp"
+#include "sph/mesh_field.hpp"
 
 namespace rill::reference {
 
-/// Fluid particles, m and m/s relative to the origin.
+/// A solid at the end of a step, relative to the origin.
+struct WhiteSolid {
+  Shape shape;
+  Pose pose;
+  std::shared_ptr<const MeshField> field = {};  ///< of a mesh
+};
+
+/// Fluid particles, m and m/s relative to the origin, and the solids among them.
 struct WhiteFluid {
   std::vector<glm::dvec3> positions, velocities;
   double spacing = 0;  ///< m
+  std::vector<WhiteSolid> solids = {};
 };
+
+/// Signed distance of a point from a solid and the outward normal.
+SurfacePoint whiteDistance(const WhiteSolid& solid, const glm::dvec3& x);
 
 /// What the fluid does at a particle; zeros where it is slow.
 struct WhiteFlow {

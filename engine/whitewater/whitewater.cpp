@@ -14,6 +14,7 @@
 #include "graph/shader_pass.hpp"
 #include "render/check_input.hpp"
 #include "render/particle_count.hpp"
+#include "shared/solid_records.h"
 #include "whitewater/whitewater_impl.hpp"
 
 namespace rill {
@@ -50,13 +51,25 @@ Expected<void> checkWhitewater(const WhitewaterDesc& desc) {
   return {};
 }
 
+Expected<void> checkSolids(const Graph& graph, const FluidState& fluid, const WhitewaterDesc& desc) {
+  if (desc.solids == 0) return {};
+  const auto& resources = implOf(graph).resources;
+  const uint32_t solids = fluid.boundaries.index;
+  if (fluid.boundaries == BufferRef{} || solids >= resources.size() || resources[solids].size < desc.solids * sizeof(SolidRecord))
+    return whiteError(ErrorKind::BadInput, "FluidState::boundaries is null or too small; expected the records of " + grouped(desc.solids) +
+                                               (desc.solids == 1 ? " solid" : " solids"));
+  if (desc.meshes && fluid.meshWords == BufferRef{})
+    return whiteError(ErrorKind::BadInput, "FluidState::meshWords is null; expected the fields of the meshes among the solids");
+  return {};
+}
+
 }  // namespace
 
 /// The buffers of one frame.
 struct WhitewaterImpl::Frame {
   WhitePush push{};
-  BufferRef position, velocity, particleCount, keys, order, start, place, motion, surface, strain, births, whitePlace, whiteMotion,
-      movedPlace, movedMotion, alive, counts, arguments;
+  BufferRef position, velocity, particleCount, solids, meshWords, keys, order, start, place, motion, surface, strain, births, whitePlace,
+      whiteMotion, movedPlace, movedMotion, alive, counts, arguments;
 };
 
 Expected<std::unique_ptr<WhitewaterImpl>> WhitewaterImpl::create(Device& device, const WhitewaterDesc& desc) {
@@ -84,14 +97,17 @@ Expected<std::unique_ptr<WhitewaterImpl>> WhitewaterImpl::create(Device& device,
   }
   ModulePipelines make(device);
   const bool texels = usesTexelReads(device);
+  const auto amongSolids = [&](const std::string& name, bool reads) {
+    return desc.solids == 0 ? make.make(name, reads) : make.make(name + "_solids", reads, {{"MESHES", desc.meshes}});
+  };
   impl->pipelines_ = {.keys = make.make("whitewater/keys"),
                       .gather = make.make("whitewater/gather"),
-                      .surface = make.make("whitewater/surface", texels),
+                      .surface = amongSolids("whitewater/surface", texels),
                       .births = make.make("whitewater/births", texels),
                       .begin = make.make("whitewater/begin"),
-                      .advance = make.make("whitewater/advance", texels),
+                      .advance = amongSolids("whitewater/advance", texels),
                       .compact = make.make("whitewater/compact"),
-                      .emit = make.make("whitewater/emit"),
+                      .emit = amongSolids("whitewater/emit", false),
                       .finish = make.make("whitewater/finish")};
   if (auto made = make.result(); !made) return made.error();
   if (auto made = impl->makeBuffers(device); !made) return made.error();
@@ -157,6 +173,7 @@ WhitePush WhitewaterImpl::pushFor(const FluidState& fluid, double seconds, const
   push.trapping = static_cast<float>(desc.trapping);
   push.breaking = static_cast<float>(desc.breaking);
   push.life = static_cast<float>(desc.life_s);
+  push.solids = desc.solids;
   push.seed = static_cast<uint32_t>(desc.seed ^ desc.seed >> 32);
   return push;
 }
@@ -189,6 +206,8 @@ void WhitewaterImpl::add(Graph& graph, std::string_view name, const ComputePipel
               {{"position", std::as_const(f.position)},
                {"velocity", std::as_const(f.velocity)},
                {"particle_count", std::as_const(f.particleCount)},
+               {"solids", std::as_const(f.solids)},
+               {"mesh_words", std::as_const(f.meshWords)},
                {"keys", f.keys},
                {"order", f.order},
                {"start", f.start},
@@ -238,6 +257,8 @@ WhitewaterState WhitewaterImpl::addTo(Graph& graph, const FluidState& fluid, dou
     f.position = fluid.position;
     f.velocity = fluid.velocity;
     f.particleCount = particleCount(graph, fluid);
+    f.solids = fluid.boundaries;
+    f.meshWords = desc.meshes ? fluid.meshWords : fluid.boundaries;  // not read without meshes
     f.arguments = graph.create("whitewater arguments", {sizeof(VkDispatchIndirectCommand)});
     f.movedPlace = graph.create("whitewater moved places", {uint64_t{desc.room} * 16});
     f.movedMotion = graph.create("whitewater moved motions", {uint64_t{desc.room} * 16});
@@ -278,6 +299,7 @@ WhitewaterState Whitewater::addTo(Graph& graph, const FluidState& fluid, double 
   if (valid && fluid.capacity > 0 && velocity < resources.size() && resources[velocity].size < uint64_t{fluid.capacity} * 16)
     valid = whiteError(ErrorKind::BadInput, "FluidState::velocity has " + grouped(resources[velocity].size) +
                                                 " bytes; expected 16 for each of its " + grouped(fluid.capacity) + " particles");
+  if (valid && fluid.capacity > 0 && seconds > 0) valid = checkSolids(graph, fluid, impl_->desc);
   if (valid && !(seconds >= 0 && seconds <= 1e6))
     valid = whiteError(ErrorKind::BadInput, "the step is " + shortestNumber(seconds) + "; expected 0 to 1e6 (s)");
   const Double3 pull = gravity.value_or(impl_->desc.gravity);

@@ -14,6 +14,11 @@ layout(std430, set = 0, binding = 5) writeonly buffer MovedPlace { vec4 moved_pl
 layout(std430, set = 0, binding = 6) writeonly buffer MovedMotion { uvec4 moved_motion[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Alive { uint alive[]; };
 layout(std430, set = 0, binding = 8) buffer Counts { uint counts[]; };
+#ifdef SOLIDS
+#define WHITE_SOLIDS 9
+#define WHITE_MESHES 10
+#endif
+#include "whitewater/white_solids.glsl"
 #include "whitewater/white_walk.glsl"
 
 float weights = 0.0;
@@ -34,7 +39,7 @@ void main() {
   // Where it is at the end of the step if the fluid does not change its velocity: there it meets the fluid of that time.
   const vec3 ahead = x + step * v + (before == kWhiteSpray ? 0.5 * step * step * gravity() : vec3(0.0));
   if (inGrid(ahead) && !walk(ahead)) atomicAdd(counts[kWhiteBoundHits], 1u);
-  const float share = weights / shareInside(ahead);
+  const float share = weights / max(shareInside(ahead) * shareOutside(ahead), 0.1);
 
   uint kind = share < kWhiteSprayBelow ? kWhiteSpray : share > kWhiteBubbleAbove ? kWhiteBubble : kWhiteFoam;
   const vec3 fluid = carried / max(weights, 1e-6);
@@ -58,6 +63,9 @@ void main() {
     if (!beyond) continue;
     to[axis] = wall;
     if (kind == kWhiteSpray) lives = false;  // it wets the wall
+  }
+  if (holdBack(x, to, after, step)) {
+    if (kind == kWhiteSpray || insideSolid(to) || beyondWalls(to) > clearance()) lives = false;  // wets it; or between two
   }
   moved_place[k] = vec4(to, age);
   moved_motion[k] = uvec4(floatBitsToUint(after), tag & ~3u | kind);

@@ -14,6 +14,12 @@ layout(std430, set = 0, binding = 6) buffer WhitePlace { vec4 white_place[]; };
 layout(std430, set = 0, binding = 7) buffer WhiteMotion { uvec4 white_motion[]; };
 layout(std430, set = 0, binding = 8) buffer Counts { uint counts[]; };
 
+#ifdef SOLIDS
+#define WHITE_SOLIDS 9
+#define WHITE_MESHES 10
+#endif
+#include "whitewater/white_solids.glsl"
+
 // Evenly in the ball of radius 1, by three of the hash's numbers.
 vec3 inBall(uint hash, uint first) {
   const float z = 2.0 * unit(whiteNumber(hash, first)) - 1.0, turn = 6.2831853 * unit(whiteNumber(hash, first + 1u));
@@ -39,8 +45,10 @@ void main() {
       const uint axis = side >> 1u;
       at[axis] = (side & 1u) == 0u ? max(at[axis], domainLow()[axis]) : min(at[axis], domainHigh()[axis]);
     }
+    vec3 thrown = v + kWhiteSpread * length(v) * inBall(hash, 4u);
+    if (holdBack(x, at, thrown, 0.0) && (insideSolid(at) || beyondWalls(at) > 0.0)) at = x;
     white_place[first + k] = vec4(at, 0.0);
-    white_motion[first + k] = uvec4(floatBitsToUint(v + kWhiteSpread * length(v) * inBall(hash, 4u)), hash << 2u | kind);
+    white_motion[first + k] = uvec4(floatBitsToUint(thrown), hash << 2u | kind);
     atomicAdd(counts[kWhiteSprayCount + kind], 1u);
   }
 }

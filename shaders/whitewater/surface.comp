@@ -11,6 +11,11 @@ READ_UINT(2, start)
 layout(std430, set = 0, binding = 3) writeonly buffer Surface { vec4 surface[]; };  // normal out of the fluid; area in squared spacings
 layout(std430, set = 0, binding = 4) writeonly buffer Strain { float strain[]; };   // 1/s
 layout(std430, set = 0, binding = 5) buffer Counts { uint counts[]; };
+#ifdef SOLIDS
+#define WHITE_SOLIDS 6
+#define WHITE_MESHES 7
+#endif
+#include "whitewater/white_solids.glsl"
 #include "whitewater/white_walk.glsl"
 
 vec3 here;  // velocity
@@ -41,7 +46,8 @@ void main() {
   }
   if (!walk(x)) atomicAdd(counts[kWhiteBoundHits], 1u);
 
-  // Behind walls as much fluid as here is taken to be
+  // Behind walls and in solids as much fluid as here is taken to be
+  slope += slopeOfSolids(x);
   for (uint side = 0u; side < 6u; ++side) {
     const float wall = wallDistance(x, side), sign = (side & 1u) == 0u ? 1.0 : -1.0;
     slope[side >> 1u] -= sign * shareSlope(wall);

@@ -53,6 +53,12 @@ float wallDistance(vec3 x, uint side) {
 float shareInside(vec3 x) {
   float share = 1.0;
   for (uint side = 0u; side < 6u; ++side) share *= shareWithin(wallDistance(x, side));
-  return max(share, 0.1);
+  return share;
+}
+// Distance beyond the closed sides of the domain, m; 0 inside.
+float beyondWalls(vec3 x) {
+  float beyond = 0.0;
+  for (uint side = 0u; side < 6u; ++side) beyond = max(beyond, -support() * wallDistance(x, side));
+  return beyond;
 }
 #endif

@@ -27,6 +27,8 @@ RILL_CONST float kWhiteBubbleAbove = 0.8f;     // half a spacing below it
 RILL_CONST float kWhiteRise = 0.25f;           // m/s, terminal speed of bubbles of 2 to 15 mm (Clift, Grace and Weber 1978)
 RILL_CONST float kWhiteBubbleAging = 0.25f;    // seconds of age a second under water
 
+RILL_CONST float kWhiteClearance = 0.01f;      // spacings that particles keep from solids
+
 // Words of the counts.
 RILL_CONST uint kWhiteCount = 0u;              // diffuse particles
 RILL_CONST uint kWhiteSprayCount = 1u;         // of each class, in the order of the classes
@@ -55,6 +57,7 @@ struct WhitePush {
   float breaking;                     // that crests throw, of their area times their speed
   float life;                         // s, mean of foam
   uint seed;
+  uint solids;                        // that hold diffuse particles back
 };
 
 RILL_RECORDS_END

@@ -81,6 +81,26 @@ TEST(WhitewaterRun, FiguresAreThoseOfTheParticles) {
   for (const Float3& p : particles->positions) { EXPECT_TRUE(p.x >= 0 && p.x <= 1.8f && p.y >= 0 && p.y < 5 && p.z >= 0 && p.z <= 0.6f); }
 }
 
+TEST(WhitewaterRun, SolidsHoldItBack) {
+  Scene scene = dam(true);
+  scene.solids = {Solid{.shape = BoxShape{{1.1, 0, 0.2}, {1.3, 0.3, 0.4}}},
+                  Solid{.shape = SphereShape{{0.9, 0.2, 0.3}, 0.15},
+                        .motion = {{.at = 0, .translate = {0, 0, 0}}, {.at = 1, .translate = {0.1, 0.3, 0.2}}}}};
+  Simulation run = opened(Simulation::open(scene, Options{.validation = true}));
+  for (int k = 0; k < 6; ++k) {
+    ASSERT_TRUE(run.advance(0.15));
+    const auto particles = run.whitewater();
+    ASSERT_TRUE(particles);
+    const double t = 0.15 * (k + 1), at[3] = {0.9 + 0.1 * t, 0.2 + 0.3 * t, 0.3 + 0.2 * t};
+    for (const Float3& p : particles->positions) {
+      EXPECT_FALSE(p.x > 1.1f && p.x < 1.3f && p.y < 0.3f && p.z > 0.2f && p.z < 0.4f) << k;
+      EXPECT_GE(std::hypot(p.x - at[0], p.y - at[1], p.z - at[2]), 0.15 - 1e-5) << k;
+    }
+  }
+  EXPECT_GT(run.whitewater()->positions.size(), 300u);
+  EXPECT_TRUE(run.takeValidationMessages().empty());
+}
+
 TEST(WhitewaterRun, EmissionOfDamBreakIsIndependentOfFrameRate) {
   const auto emitted = [](int fps) {
     Simulation run = opened(Simulation::open(dam(true), Options{.longestFrame_s = 1}));

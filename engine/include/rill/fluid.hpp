@@ -168,11 +168,13 @@ struct FluidState {
   BufferRef control = {};   ///< FluidControl (shaders/shared/fluid_records.h)
   /// Its first uint is the number of particles: they are the first entries of the arrays. Null: renderers take `capacity`.
   BufferRef countBuffer = {};
-  BufferRef solids = {};     ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven, a body or a mesh
-  BufferRef meshWords = {};  ///< fields of the meshes (mesh_field.h); null without meshes
-  BufferRef loads = {};      ///< SolidLoadRecord (solid_loads.h) per solid; null unless loads are measured, and with capacity 0
-  uint32_t capacity = 0;     ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
-  float spacing = 0;         ///< m
+  BufferRef solids = {};  ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven, a body or a mesh
+  /// SolidRecord per solid, at the present time; null without solids. `solids` is the same buffer, or null where views need none.
+  BufferRef boundaries = {};
+  BufferRef meshWords = {};    ///< fields of the meshes (mesh_field.h); null without meshes
+  BufferRef loads = {};        ///< SolidLoadRecord (solid_loads.h) per solid; null unless loads are measured, and with capacity 0
+  uint32_t capacity = 0;       ///< entries of the arrays: particles at most; those beyond the particles are inactive, far from all others
+  float spacing = 0;           ///< m
   Double3 origin = {0, 0, 0};  ///< m
 };
 

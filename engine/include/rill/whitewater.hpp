@@ -60,6 +60,8 @@ struct WhitewaterDesc {
   Double3 gravity = {0, -9.81, 0};               ///< m/s^2, until addTo() is given another
   std::optional<Domain> domain = {};             ///< its closed sides hold diffuse particles back
   Double3 origin = {0, 0, 0};                    ///< FluidState::origin, for the domain
+  uint32_t solids = 0;                           ///< of FluidState::boundaries, which hold them back, too
+  bool meshes = false;                           ///< some of those are meshes: FluidState::meshWords has their fields
   uint64_t seed = 1;                             ///< of random numbers
   const WhitewaterSnapshot* snapshot = nullptr;  ///< optional: the state to continue from; BadInput if it does not fit
 };
