@@ -181,9 +181,8 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
     options.orbit_degPerS = *orbit;
   }
   if (given("--exposure")) {
-    const auto stops = numberIn<double>(raw.exposure);
-    if (!stops || !(std::abs(*stops) <= offline::kMaxExposure_stops))
-      return badInput("--exposure", raw.exposure, "a number of stops from -10 to 10");
+    const auto stops = apps::exposureIn(raw.exposure);
+    if (!stops) return stops.error();
     if (options.view != "final")
       return Error{ErrorKind::BadInput, "--exposure: the view " + options.view + " has none; expected --view final"};
     if (raw.noImages && !given("--video"))

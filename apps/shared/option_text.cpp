@@ -1,6 +1,7 @@
 #include "shared/option_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/words.hpp"
@@ -35,6 +36,12 @@ Expected<void> checkView(const std::string& name) {
   const std::vector<std::string> all = views();
   if (std::find(all.begin(), all.end(), name) != all.end()) return {};
   return Error{ErrorKind::BadInput, "--view: unknown view " + inQuotes(name) + didYouMean(name, all) + "\nviews: " + joined(all)};
+}
+
+Expected<double> exposureIn(const std::string& text) {
+  const auto stops = numberIn<double>(text);
+  if (stops && std::abs(*stops) <= offline::kMaxExposure_stops) return *stops;
+  return badInput("--exposure", text, "a number of stops from -10 to 10");
 }
 
 }  // namespace rill::apps

@@ -34,4 +34,7 @@ std::string viewNames();
 /// BadInput with the list of views where `name` is not one.
 Expected<void> checkView(const std::string& name);
 
+/// The value of --exposure, stops.
+Expected<double> exposureIn(const std::string& text);
+
 }  // namespace rill::apps

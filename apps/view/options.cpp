@@ -24,7 +24,7 @@ constexpr uint64_t kMaxFrames = 1'000'000'000;
 
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
 struct Raw {
-  std::string scene, device, size, scale, view, present, frames, screenshot, script;
+  std::string scene, device, size, scale, view, exposure, present, frames, screenshot, script;
   std::vector<std::string> set;
   bool lockstep = false, validate = false, listDevices = false;
 };
@@ -36,6 +36,7 @@ void declare(CLI::App& app, Raw& raw) {
     app.add_option(name, value, about)->type_name(type)->group(group);
   };
   text("--view", raw.view, "initial view: " + apps::viewNames() + " (default: final)", "VIEW", shown);
+  text("--exposure", raw.exposure, "brighten the view final by EV stops, each twice the light (-10 to 10, default: 0)", "EV", shown);
   text("--size", raw.size, "size of the window in pixels (default: 1280x720)", "WxH", shown);
   text("--scale", raw.scale, "scale of text and buttons, 0.5 to 4 (default: that of the display)", "FACTOR", shown);
   app.add_option("--set", raw.set, "override a key of the scene, for example fluid.viscosity=0.1")
@@ -95,6 +96,11 @@ Expected<Options> validated(const Raw& raw, const CLI::App& app) {
   if (given("--view")) {
     if (auto known = apps::checkView(raw.view); !known) return known.error();
     options.view = raw.view;
+  }
+  if (given("--exposure")) {
+    const auto stops = apps::exposureIn(raw.exposure);
+    if (!stops) return stops.error();
+    options.exposure_stops = *stops;
   }
   if (given("--present")) {
     const auto mode = presentModeNamed(raw.present);

@@ -14,6 +14,7 @@ class Picture {
     std::string view;
     CameraView eye;
     Area area;
+    double exposure_stops = 0;
     double scale = 0;      ///< image over window resolution, per side; 0: automatic
     bool changed = false;  ///< the scene has changed
   };
@@ -33,7 +34,7 @@ class Picture {
   CameraView eye_;
   std::string view_;
   Area area_;
-  double scale_ = 1, took_s_ = 0;
+  double exposure_stops_ = 0, scale_ = 1, took_s_ = 0;
 };
 
 }  // namespace rill::view

@@ -7,6 +7,7 @@ namespace rill::view {
 /// Settings of the window, which keys, panels and scripts change.
 struct Settings {
   std::string view = "final";
+  double exposure_stops = 0;  ///< of the view final
   bool paused = false, panels = true, help = false;
   uint32_t body = 0;   ///< index of the solid whose figures the panel of bodies shows
   double tapFlow = 0;  ///< of the tap under the pointer, m^3/s; 0: Tap::defaultFlow()

@@ -27,7 +27,7 @@ WindowLoop::WindowLoop(const Options& options, std::unique_ptr<Window> window, c
       interface_(
           options.scale.value_or(window_->contentScale()), [this] { return window_->clipboard(); },
           [this](const char* text) { window_->setClipboard(text); }),
-      settings_{.view = options.view},
+      settings_{.view = options.view, .exposure_stops = options.exposure_stops},
       graphics_(options, *window_, interface_.fonts()),
       shown_(*window_, interface_, graphics_, settings_, message_, options.lockstep),
       scenes_(folders, shown_, message_),

@@ -59,6 +59,9 @@ class Painter {
   /// BadInput for values of pictures that Options does not allow.
   static Expected<void> checkOptions(const Options& options);
 
+  /// Brightens the view final by as many stops as checkOptions() allows.
+  void expose(double stops) { exposure_stops_ = stops; }
+
   static std::span<const std::string_view> views();
   /// BadInput for an unknown view or an unsupported size. Needs no device.
   static Expected<void> check(std::string_view view, uint32_t width, uint32_t height);

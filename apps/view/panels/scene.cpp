@@ -24,6 +24,14 @@ void sameLineIfFits(const char* button) {
   if (right + 2 * ImGui::GetStyle().FramePadding.x < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
 }
 
+void exposureSlider(double& stops) {
+  constexpr double kLeast = -offline::kMaxExposure_stops, kMost = offline::kMaxExposure_stops;
+  ImGui::SetNextItemWidth(-80 * ImGui::GetFontSize() / 15);
+  ImGui::SliderScalar("exposure", ImGuiDataType_Double, &stops, &kLeast, &kMost, "%+.1f stops", ImGuiSliderFlags_AlwaysClamp);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("each stop is twice the light; double click to reset");
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) stops = 0;
+}
+
 }  // namespace
 
 void scenePanel(Board& board) {
@@ -31,6 +39,7 @@ void scenePanel(Board& board) {
   if (const std::string picked = combo("scene", board.scene, board.scenes); !picked.empty()) requests.open = picked;
   if (const std::string picked = combo("view", board.settings.view, offline::Simulation::views()); !picked.empty())
     board.settings.view = picked;
+  if (board.settings.view == "final") exposureSlider(board.settings.exposure_stops);
 
   if (ImGui::Button(board.settings.paused ? "Continue (P)" : "Pause (P)")) board.settings.paused = !board.settings.paused;
   ImGui::SameLine();
