@@ -29,6 +29,9 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
   auto stage = SurfaceStage::create(host);
   if (!stage) return stage.error();
   surface = *stage;
+  auto depths = CrestDepths::create(host);
+  if (!depths) return depths.error();
+  crests = *depths;
   auto mean = MeanNormals::create(host);
   if (!mean) return mean.error();
   meanNormals = *mean;
@@ -41,17 +44,18 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
 }
 
 Expected<void> FluidRendererImpl::makeShade() {
-  constexpr const char* kFragments[2][2] = {{"render/fluid_shade_fragment", "render/fluid_shade_environment_fragment"},
-                                            {"render/fluid_shade_opaque_fragment", "render/fluid_shade_opaque_environment_fragment"}};
-  for (const bool opaque : {false, true}) {
+  constexpr const char* kFragments[3][2] = {{"render/fluid_shade_fragment", "render/fluid_shade_environment_fragment"},
+                                            {"render/fluid_shade_opaque_fragment", "render/fluid_shade_opaque_environment_fragment"},
+                                            {"render/fluid_shade_crests_fragment", "render/fluid_shade_crests_environment_fragment"}};
+  for (size_t k = 0; k < std::size(kFragments); ++k) {
     auto drawn = graphicsPipeline(*device->device, {.vertex = "render/fluid_shade_vertex",
-                                                    .fragment = kFragments[opaque][environment != nullptr],
+                                                    .fragment = kFragments[k][environment != nullptr],
                                                     .colors = {&formats.color, 1},
                                                     .depth = formats.depth,
                                                     .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
                                                     .depthWrite = true});
     if (!drawn) return drawn.error();
-    shade[opaque] = *drawn;
+    shade[k] = *drawn;
   }
   return {};
 }
@@ -91,12 +95,22 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     normals = meanNormals.addTo(graph, last);
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last);
   }
-  const BufferRef record = addLook(graph, lookRecord(look, thick, environment.get()));
+  look::LookRecord values = lookRecord(look, thick, environment.get());
+  const bool lit = !look.opaque && (look.scattering.x > 0 || look.scattering.y > 0 || look.scattering.z > 0);
+  BufferRef sunward;
+  if (lit) {
+    sunward = crests.addTo(graph, fluid, values.light, last.particles);
+    values.emission.w = static_cast<float>(CrestDepths::side(fluid.capacity));
+  }
+  const BufferRef record = addLook(graph, values);
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(last.arguments, Use::Indirect);
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = bindNamed(pass, shade[look.opaque],
+    const Kernel kernel = bindNamed(pass,
+                                    shade[lit           ? 2
+                                          : look.opaque ? 1
+                                                        : 0],
                                     {{"look", record},
                                      {"tiles", last.tiles},
                                      {"surface", last.pixels},
@@ -105,6 +119,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
                                      {"thickness", thickness},
                                      {"mean_normals", normals},
                                      {"samples", last.samples},
+                                     {"heights", sunward},
                                      {"environment", texels}});
     return [kernel, push, arguments = last.arguments](Commands& commands) {
       commands.viewport(push.left, push.top, push.width, push.height);

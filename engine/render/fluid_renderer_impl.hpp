@@ -1,6 +1,7 @@
 #pragma once
 // Implementation of rill::FluidRenderer.
 #include "core/impl_of.hpp"
+#include "render/crests.hpp"
 #include "render/environment.hpp"
 #include "render/look_record.hpp"
 #include "render/mean_normals.hpp"
@@ -34,7 +35,8 @@ class FluidRendererImpl {
   MeanNormals meanNormals;
   SurfaceBuffers last;  ///< of the frame being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
-  const GraphicsPipeline* shade[2] = {};  ///< by FluidLook::opaque
+  CrestDepths crests;
+  const GraphicsPipeline* shade[3] = {};  ///< plain, of an opaque fluid, and with light through crests
 
  private:
   Expected<void> makeShade();

@@ -15,6 +15,7 @@ look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& t
   record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refractionIndex};
   record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
   record.emission = {look.emission.x, look.emission.y, look.emission.z, 0};
+  record.scattering = {look.scattering.x, look.scattering.y, look.scattering.z, look.meanCosine};
   const EnvironmentSun* sun = environment && environment->sun() ? &*environment->sun() : nullptr;
   const Float3 s = look.toSun.value_or(sun ? sun->direction : kToSun);
   const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);

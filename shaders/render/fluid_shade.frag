@@ -17,6 +17,10 @@ layout(std430, set = 0, binding = 6) readonly buffer MeanNormals { uint mean_nor
 layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
 #include "render/surface_mean_normal.glsl"
 #endif
+#ifdef CRESTS
+layout(std430, set = 0, binding = CRESTS) readonly buffer Heights { vec2 heights[]; };  // of crest_heights.comp
+#include "render/crests.glsl"
+#endif
 layout(location = 0) out vec4 color;
 
 const float kEdgeOn = -0.02;  // largest cosine between a visible normal and the view ray
@@ -107,6 +111,38 @@ MeanNormal meanNormalAt(vec2 middle, float z, vec3 normal, vec3 sight) {
   return MeanNormal(size > 1e-4 ? sum / size : normal, weights > 1e-4 ? lengths / weights : kRefractionFade.x);
 }
 
+#ifdef CRESTS
+// Fluid between a point and the sun, m. Of fluid with air between, what there is of it.
+float depthBehindSun(vec3 p) {
+  const vec3 sun = look.light.xyz;
+  const vec2 at = crestPlace(p, sun, view.spacing) - 0.5;
+  const ivec2 base = ivec2(floor(at));
+  const vec2 part = at - vec2(base);
+  const float own = dot(p, sun);
+  float sum = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const ivec2 corner = ivec2(k & 1, k >> 1);
+    const vec2 height = heights[crestIndex(base + corner, uint(look.emission.w))], share = mix(1.0 - part, part, vec2(corner));
+    sum += share.x * share.y * clamp(height.x - own, 0.0, height.y);
+  }
+  return sum;
+}
+
+const float kLeastGlow = 0.001;  // of a white surface in the sky's light; less is not seen
+
+// Sunlight that is scattered once into a ray through the fluid. Between its ends the way of the light is taken to change evenly.
+vec3 scatteredSun(vec3 point, vec3 along, float size) {
+  const float g = look.scattering.w, narrow = 1.0 + g * g - 2.0 * g * dot(worldDirection(along), look.light.xyz);
+  const float phase = (1.0 - g * g) / (12.566371 * narrow * sqrt(narrow));
+  const vec3 most = look.scattering.rgb * sunlight() * (3.1415927 * phase * size);
+  if (max(most.r, max(most.g, most.b)) < kLeastGlow) return vec3(0.0);
+  const float first = depthBehindSun(worldPoint(point)), last = depthBehindSun(worldPoint(point + size * along));
+  const vec3 loss = look.absorption.rgb * (size + last - first);
+  const vec3 mean = mix((1.0 - exp(-loss)) / loss, 1.0 - 0.5 * loss, lessThan(abs(loss), vec3(1e-3)));
+  return most * (1.0 - fresnel(1.0, look.absorption.w)) * exp(-look.absorption.rgb * first) * mean;
+}
+#endif
+
 // Refracted and scattered light, without the reflection. `scattered`: incident light.
 vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal, vec3 scattered) {
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
@@ -142,7 +178,10 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
     ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
   }
   const vec3 through = exp(-look.absorption.rgb * min(inside, ray_length));
-  const vec3 body = sceneBilinear(hit_pixel, z) * through + (look.scatter.rgb * scattered + look.emission.rgb) * (1.0 - through);
+  vec3 body = sceneBilinear(hit_pixel, z) * through + (look.scatter.rgb * scattered + look.emission.rgb) * (1.0 - through);
+#ifdef CRESTS
+  body += bends * scatteredSun(point, bent, min(inside, ray_length));
+#endif
   // Multiple scattering leaves no side dark.
   const float facing_sun = 0.5 + 0.5 * dot(worldDirection(mean_normal.direction), look.light.xyz);
   return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + sunlight() * facing_sun * facing_sun, white);

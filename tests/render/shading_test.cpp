@@ -147,6 +147,38 @@ TEST_F(FlatPool, EmitsAsMuchAsItAbsorbs) {
     }
 }
 
+// Sunlight from above and from below, through a slab: the integral along the view ray, by Simpson's rule.
+TEST_F(FlatPool, ScattersSunlightOnceAsASlabDoes) {
+  const double rates[] = {1.2, 0.5, 0.1}, coefficients[] = {0.4, 0.3, 0.6}, white[] = {1, 0.95, 0.88};
+  const std::array<float, 4> black{0, 0, 0, 1};
+  for (const double depth : {0.4, 1.0})
+    for (const double degrees : {0.0, 30.0, 150.0, 180.0})
+      for (const double g : {0.0, 0.7}) {
+        pool(depth, 4);
+        FluidLook look = clear();
+        look.absorption = {1.2f, 0.5f, 0.1f};
+        const Vector sun{std::sin(degrees * kDegree), std::cos(degrees * kDegree), 0};
+        look.toSun = {float(sun.x), float(sun.y), 0};
+        look.meanCosine = static_cast<float>(g);
+        const Color dark = mean(seen(parallel(0), look, black));
+        look.scattering = {0.4f, 0.3f, 0.6f};
+        const Color bright = mean(seen(parallel(0), look, black));
+        const double across = std::abs(sun.y), left = 1 - fresnel(0, double{look.refractionIndex});
+        const double phase = (1 - g * g) / (4 * std::numbers::pi * std::pow(1 + g * g + 2 * g * sun.y, 1.5));
+        for (size_t c = 0; c < 3; ++c) {
+          const auto light = [&](double s) { return std::exp(-rates[c] * (s + (sun.y > 0 ? s : depth - s) / across)); };
+          constexpr int kParts = 100;
+          double sum = 0;
+          for (int k = 0; k < kParts; ++k) {
+            const double a = depth * k / kParts, b = depth * (k + 1) / kParts;
+            sum += (b - a) / 6 * (light(a) + 4 * light(0.5 * (a + b)) + light(b));
+          }
+          const double wanted = left * left * coefficients[c] * std::numbers::pi * white[c] * phase * sum;
+          EXPECT_NEAR(bright[c] - dark[c], wanted, 0.02 * wanted) << depth << " m, " << degrees << " degrees, channel " << c;
+        }
+      }
+}
+
 TEST(LookPresets, HaveTheirColors) {
   const auto body = [&](std::string_view name) { return fluidLook(name)->scatter; };
   for (const std::string_view name : fluidLooks()) ASSERT_TRUE(fluidLook(name)) << name;

@@ -70,6 +70,9 @@ struct FluidLook {
   SurfaceMethod surface = SurfaceMethod::Auto;
   Float3 absorption{2.6f, 0.75f, 0.40f};  ///< 1/m, Beer-Lambert law
   Float3 scatter{0.02f, 0.13f, 0.19f};    ///< color of white light scattered by thick fluid; of an opaque fluid its color
+  /// 1/m, of sunlight that shines through crests and is scattered once; its loss is that of `absorption`. 0: none, at no cost.
+  Float3 scattering{0, 0, 0};
+  float meanCosine = 0.92f;  ///< of the angle of that scattering (Henyey and Greenstein 1941), -1 to 1 exclusive
   /// Light of the fluid's own where it is thick, relative to a white surface in the sky's light; thin fluid has as little of it as it
   /// absorbs (Kirchhoff's law). It does not light the scene.
   Float3 emission{0, 0, 0};
