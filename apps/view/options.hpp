@@ -19,7 +19,7 @@ struct Options {
   uint32_t width = 1280, height = 720;  ///< of the window, pixels
   std::optional<float> scale;           ///< of text and buttons; none: the display's
   std::string view = "final";
-  double exposure_stops = 0;            ///< of the view final
+  double exposure_stops = 0;  ///< of the view final
   VkPresentModeKHR present = VK_PRESENT_MODE_FIFO_KHR;
   std::vector<Override> overrides;  ///< of scene keys, in order
   std::optional<uint64_t> frames;   ///< displayed frames after which the program ends

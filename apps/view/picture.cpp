@@ -6,7 +6,8 @@ namespace rill::view {
 
 bool Picture::shows(const Request& request, double scale) const {
   return request.eye.fov_y_deg == eye_.fov_y_deg && std::ranges::equal(request.eye.eye, eye_.eye) &&
-         std::ranges::equal(request.eye.target, eye_.target) && scale == scale_ && request.exposure_stops == exposure_stops_ && request.view == view_ && request.area == area_;
+         std::ranges::equal(request.eye.target, eye_.target) && scale == scale_ && request.exposure_stops == exposure_stops_ &&
+         request.view == view_ && request.area == area_;
 }
 
 Expected<void> Picture::paint(Display& display, Session& session, const Request& request) {

@@ -156,7 +156,8 @@ Expected<void> ShownScene::simulate(double seconds, double now_s) {
 Expected<void> ShownScene::paint(double seconds) {
   controls_.camera.update(seconds);
   const double scale = settings_.scale == 0 && lockstep_ ? 1 : settings_.scale;
-  auto drawn = picture_.paint(graphics_.display(), *session_, {settings_.view, controls_.camera.view(), layout_.picture, settings_.exposure_stops, scale, dirty_});
+  auto drawn = picture_.paint(graphics_.display(), *session_,
+                              {settings_.view, controls_.camera.view(), layout_.picture, settings_.exposure_stops, scale, dirty_});
   if (!drawn && !(drawn.error().kind == ErrorKind::BadInput && picture_.any())) return drawn;
   if (!drawn) message_.show(drawn.error().message);
   dirty_ = false;

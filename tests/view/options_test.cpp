@@ -28,8 +28,9 @@ TEST(ViewOptions, TakesExposure) {
   ASSERT_TRUE(line) << line.error().message;
   EXPECT_EQ(line->options->exposure_stops, -1.5);
   for (const char* bad : {"11", "-10.1", "nan", "bright", ""})
-    EXPECT_NE(deviceOf({"--exposure", bad}).find("--exposure: \"" + std::string(bad) + "\" was given; expected a number of stops from -10 to 10"),
-              std::string::npos)
+    EXPECT_NE(
+        deviceOf({"--exposure", bad}).find("--exposure: \"" + std::string(bad) + "\" was given; expected a number of stops from -10 to 10"),
+        std::string::npos)
         << bad;
 }
 
