@@ -108,6 +108,7 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   frame["outside"] = stats.outside;
   frame["neighbour_overflow"] = stats.neighborOverflow;
   frame["loop_bound_hits"] = stats.loopBoundHits;
+  frame["viscosity_bound_hits"] = stats.viscosityBoundHits;
   frame["picture_bound_hits"] = stats.pictureBoundHits;
   frame["list_builds"] = stats.listBuilds;
   frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
@@ -288,6 +289,9 @@ std::vector<std::string> Record::warnings() const {
                        " s were dropped: " + std::to_string(scene_->solver.max_substeps) +
                        " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed, weight and "
                        "viscosity and solver.time_step allow");
+  if (last.viscosityBoundHits > 0)
+    warnings.push_back("warning: in " + grouped(last.viscosityBoundHits) +
+                       " substeps viscosity needed more steps than its solve takes: fluid.viscosity acted as less");
   if (last.loopBoundHits > 0)
     warnings.push_back("warning: loops of the fluid's shaders reached their limit " + grouped(last.loopBoundHits) +
                        " times since the start: some particles have too many neighbors, or bodies touch too many solids");

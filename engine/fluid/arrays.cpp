@@ -100,6 +100,12 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {NearMultipliers, "nearMultipliers", "multipliers near solids", Section, 8, perParticleIf<&ArrayShape::loads>, Account::Particles},
       {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
        Account::Particles},
+      {Hold, "hold", "hold of solids", Fluid, kVector, perParticleIf<&ArrayShape::noSlipSolids>, Account::Particles},
+      {Residual, "residual", "residuals of viscosity", Section, kVector, perParticleIf<&ArrayShape::viscous>, Account::Particles},
+      {Direction, "direction", "directions of viscosity", Section, kVector,
+       [](const ArrayShape& s) { return s.viscous ? s.particles + 1 : 0; }, Account::Particles},
+      {NextDirection, "nextDirection", "next directions of viscosity", Section, kVector,
+       [](const ArrayShape& s) { return s.viscous ? s.particles + 1 : 0; }, Account::Particles},
       {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
       {OrderedPosition, "orderedPosition", "ordered positions", Section, kVector, perParticle},
       {Histogram, "histogram", "error histogram", Section, kWord, [](const ArrayShape&) { return uint64_t{3 * kMeasureBins}; }},
@@ -110,6 +116,8 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {Place, "place"},
       {SweepFrom, "sweepFrom"},
       {SweepTo, "sweepTo"},
+      {DirectionFrom, "directionFrom"},
+      {DirectionTo, "directionTo"},
       {SortStart, "start"},
       {SortArrived, "arrived"},
       {SortOrder, "order"},
@@ -148,9 +156,11 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .lists = p.listCapacity > 0,
           .warm = setup.warm,
           .multipliers = keepsMultipliers(setup),
-          .smooths = setup.viscositySweeps > 0 || p.noiseDampingRate > 0,
+          .smooths = p.noiseDampingRate > 0,
+          .viscous = p.viscosityRate > 0,
           .vorticity = p.vorticity > 0,
           .loads = setup.loads,
+          .noSlipSolids = setup.noSlipSolids,
           .noSlipBodies = setup.noSlipBodies,
           .removes = setup.removes};
 }
@@ -170,9 +180,10 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .lists = lists,
           .warm = startsWarm(scene),
           .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,
-          .smooths = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
+          .viscous = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
           .vorticity = scene.fluid.vorticity > 0,
           .loads = !scene.solids.empty(),  // a host may ask for them
+          .noSlipSolids = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid); }),
           .noSlipBodies = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid) && solid.body; })};
 }
 

@@ -69,6 +69,10 @@ enum class FluidArray : uint8_t {
   FreeVelocity,
   NearMultipliers,
   Smoothed,
+  Hold,
+  Residual,
+  Direction,
+  NextDirection,
   Curl,
   OrderedPosition,
   Histogram,
@@ -79,6 +83,8 @@ enum class FluidArray : uint8_t {
   Place,
   SweepFrom,
   SweepTo,
+  DirectionFrom,
+  DirectionTo,
   SortStart,
   SortArrived,
   SortOrder,
@@ -95,8 +101,8 @@ struct ArrayShape {
   uint64_t cellStarts = 0;   ///< entries
   uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
            mouthPoints = 0, drains = 0, regions = 0, meshWords = 0, keyframes = 0;
-  bool lists = true, warm = false, multipliers = false, smooths = false, vorticity = false, loads = false, noSlipBodies = false,
-       removes = false;
+  bool lists = true, warm = false, multipliers = false, smooths = false, viscous = false, vorticity = false, loads = false,
+       noSlipSolids = false, noSlipBodies = false, removes = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);
 /// An upper bound, from the scene alone.

@@ -185,6 +185,7 @@ void FluidImpl::poll() const {
       s.emitterBlocked_s = double{ledger.blockedHigh} + ledger.blockedLow;
       s.neighborOverflow = sums.overflow;
       s.loopBoundHits = sums.boundHits;
+      s.viscosityBoundHits = sums.viscosityBoundHits;
       s.listBuilds = control.builds;
       s.artificialViscosity_Pa_s = setup.artificialViscosity * control.restFraction;
       stats = s;

@@ -153,7 +153,7 @@ class FluidImpl {
   void declareBodies(Graph& graph);
   void declareForces(Graph& graph, bool first);
   void declareViscosity(Graph& graph);
-  void declareNoSlip(Graph& graph, const NoSlipPush& push);
+  void declareNoSlip(Graph& graph);
   void declareNoiseDamping(Graph& graph);
   // measure_passes.cpp
   void declareMeasure(Graph& graph, Pending& pending);

@@ -15,9 +15,11 @@ bool probesPressure(const FluidSetup& s) { return !s.pressureProbes.empty(); }
 bool emits(const FluidSetup& s) { return !s.emitters.empty(); }
 bool drains(const FluidSetup& s) { return !s.drains.empty() || s.params.openRemoves != 0; }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
-bool viscous(const FluidSetup& s) { return s.viscositySweeps > 0; }
+bool stepsOfViscosity(const FluidSetup& s) { return s.params.viscosityRate > 0 && s.params.viscositySteps > 1; }
+bool viscous(const FluidSetup& s) { return s.params.viscosityRate > 0; }
 bool noSlip(const FluidSetup& s) { return s.noSlipSolids; }
 bool noSlipBodies(const FluidSetup& s) { return s.noSlipBodies; }
+bool noSlipAfterwards(const FluidSetup& s) { return s.noSlipBodies || (s.noSlipSolids && s.loads); }
 bool noSlipLoads(const FluidSetup& s) { return s.noSlipSolids && s.loads; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
@@ -26,7 +28,6 @@ bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
 bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
 bool loadsAsleep(const FluidSetup& s) { return sleeps(s) && (loads(s) || probesPressure(s)); }
 bool separate(const FluidSetup& s) { return !s.mergesPasses; }
-bool copies(const FluidSetup& s) { return s.viscositySweeps % 2 == 1; }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
 
@@ -83,12 +84,15 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
 
     {P::Pressure, "pressure at probes", "fluid/pressure", E::PressureProbes, {S::Correct}, kProbesPressure},
 
+    {P::NoSlipHold, "no-slip hold of solids", "fluid/no_slip_hold", E::NearSolids, kEnd, kNoSlip},
     {P::Viscosity, "viscosity", "fluid/viscosity", E::Gather, kEnd, kViscous},
+    {P::ViscosityPlan, "viscosity plan", "fluid/viscosity_plan", E::One, kEnd, {viscous}},
+    {P::ViscosityStart, "viscosity start", "fluid/viscosity_start", E::Particles, kEnd, {viscous}},
+    {P::ViscosityStep, "viscosity step", "fluid/viscosity_step", E::Gather, kEnd, {stepsOfViscosity}},
     {P::NoSlipSums, "no-slip sums of bodies", "fluid/no_slip_sums", E::NearSolids, kEnd, {noSlipBodies}},
     {P::NoSlipBodies, "no slip of bodies", "fluid/no_slip_bodies", E::Bodies, kEnd, {noSlipBodies}},
-    {P::NoSlip, "no slip at solids", "fluid/no_slip", E::NearSolids, kEnd, kNoSlip},
+    {P::NoSlip, "no slip at bodies", "fluid/no_slip", E::NearSolids, kEnd, {noSlipAfterwards}},
     {P::NoSlipLoads, "no-slip loads", "fluid/no_slip_loads", E::One, kEnd, {noSlipLoads}},
-    {P::CopyVelocities, "copy velocities", "fluid/copy_velocity", E::Particles, kEnd, {copies}},
     {P::VelocityNoise, "velocity noise", "fluid/velocity_noise", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::NoiseDamping, "noise damping", "fluid/noise_damping", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::Curl, "curl", "fluid/curl", E::Gather, kEnd, kSwirls, kForce},

@@ -12,10 +12,12 @@
 #include "fluid/sleep.hpp"
 #include "fluid/stability_limits.hpp"
 #include "shape/pose.hpp"
+#include "shared/viscosity_steps.h"
 #include "sph/artificial_pressure.hpp"
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
 #include "sph/liquid_scale.hpp"
+#include "sph/viscosity.hpp"
 
 namespace rill {
 namespace {
@@ -65,19 +67,17 @@ void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
                            " s, less than a frame of 1/60 s; time will be dropped");
 }
 
-// XSPH with coefficient c acts like a kinematic viscosity c sigma^2 / (2 dt): so many sweeps, and a step short enough, that none has c
-// above 1.
 void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  FluidParams& p = setup.params;
+  setup.params.viscosityRate = f(viscosityRate(scene.fluid.viscosity, scene.fluid.density, kernel));
+}
+
+// As many steps as the longest substep asks for where the fluid is somewhat denser than its rest lattice.
+void setViscositySteps(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
+  constexpr uint32_t kMaxSteps = 64;
+  constexpr double kCrowded = 1.5;
   if (scene.fluid.viscosity <= 0) return;
-  constexpr uint32_t kMaxSweeps = 8;
-  const double rate = xsphRate(scene.fluid.viscosity, scene, kernel);
-  const double usual = std::min<double>(p.maxStep, 0.1 * std::sqrt(scene.fluid.spacing / 9.81));
-  setup.viscositySweeps = static_cast<uint32_t>(std::clamp(std::ceil(rate * usual), 1.0, double{kMaxSweeps}));
-  p.viscosityRate = f(rate);
-  const double most = setup.viscositySweeps / rate;
-  p.maxStep = std::min(p.maxStep, f(most));
-  warnOfDropping("viscosity " + roundedNumber(scene.fluid.viscosity) + " Pa s", most, setup);
+  const double bound = 1 + kCrowded * (latticeBound(setup.params.viscosityRate * setup.longestStep, kernel) - 1);
+  setup.params.viscositySteps = shared::viscositySteps(bound, kMaxSteps).count;
 }
 
 void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
@@ -223,11 +223,9 @@ Expected<void> checkSteps(const Scene& scene, const Double3& room, const FluidSe
   const double least = shortestStep(room, p);
   if (setup.longestStep >= least) return {};
   const bool asked = scene.solver.time_step.value_or(least) < least;
-  const bool viscous = setup.viscositySweeps > 0 && p.viscosityRate * least > setup.viscositySweeps;
-  const std::string key = asked     ? "solver.time_step: steps of "
-                          : viscous ? "fluid.viscosity: " + roundedNumber(scene.fluid.viscosity) + " Pa s needs steps of at most "
-                                    : "solver: in " + roundedNumber(widest(room)) +
-                                          " m of room this fluid, with its relaxation and regularization, takes steps of at most ";
+  const std::string key = asked ? "solver.time_step: steps of "
+                                : "solver: in " + roundedNumber(widest(room)) +
+                                      " m of room this fluid, with its relaxation and regularization, takes steps of at most ";
   return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roundedNumber(setup.longestStep) +
                                         " s, in which the rounding of positions alone is " +
                                         roundedNumber(least * p.minSpeedGain / setup.longestStep) + " m/s; expected steps of " +
@@ -389,6 +387,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setGains(scene, setup);
   setColumn(scene, start, setup);
   setLongestStep(scene, setup);
+  setViscositySteps(scene, kernel, setup);
   setInitialPressure(scene, kernel, room, setup);
 
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();

@@ -68,7 +68,6 @@ struct FluidSetup {
   std::vector<DrivenSolid> driven;                       ///< at the start; their keyframes follow from each advance
   std::vector<float> gravity;                            ///< the schedule: value and time, four floats each; the scene's own first
   uint32_t kernel = 0;                                   ///< specialization constant KERNEL
-  uint32_t viscositySweeps = 0;                          ///< 0: no viscosity
   uint32_t substepsPerBlock = 1;                         ///< recorded between two places where the list can be rebuilt
   double artificialViscosity = 0;                        ///< Pa s, of a fluid at rest
   std::string whyNoNoiseDamping;                         ///< where that is 0

@@ -68,27 +68,28 @@ void FluidImpl::declareForces(Graph& graph, bool first) {
   declare(graph, FluidPass::PredictAtSolids, start);
 }
 
-// Sweeps of XSPH, there and back between the velocities and a copy.
+// An implicit step, by as many steps of Chebyshev's iteration as are recorded, of which the device takes those that it needs.
 void FluidImpl::declareViscosity(Graph& graph) {
   using enum FluidArray;
-  const float share = 1.0f / float(setup.viscositySweeps);
-  for (uint32_t sweep = 0; sweep < setup.viscositySweeps; ++sweep) {
-    alias(SweepFrom, sweep % 2 == 0 ? Velocity : Smoothed);
-    alias(SweepTo, sweep % 2 == 0 ? Smoothed : Velocity);
-    declare(graph, FluidPass::Viscosity, Start::Correct, SweepPush{0, 0, share});
-    declareNoSlip(graph, {share, sweep + 1 == setup.viscositySweeps});
+  declare(graph, FluidPass::NoSlipHold, Start::Correct);
+  declare(graph, FluidPass::Viscosity, Start::Correct, ChunkPush{});
+  declare(graph, FluidPass::ViscosityPlan, Start::Correct);
+  alias(DirectionTo, Direction);
+  declare(graph, FluidPass::ViscosityStart, Start::Correct);
+  for (uint32_t step = 1; step < setup.params.viscositySteps; ++step) {
+    alias(DirectionFrom, step % 2 == 1 ? Direction : NextDirection);
+    alias(DirectionTo, step % 2 == 1 ? NextDirection : Direction);
+    declare(graph, FluidPass::ViscosityStep, Start::Correct, ChunkPush{0, 0, step});
   }
-  if (!exists(FluidPass::CopyVelocities, setup)) return;
-  alias(SweepFrom, Smoothed);
-  declare(graph, FluidPass::CopyVelocities, Start::Correct);
+  declareNoSlip(graph);
 }
 
-// After a sweep, on its result. Bodies first get the velocity that they will have, so that the fluid sticks to that.
-void FluidImpl::declareNoSlip(Graph& graph, const NoSlipPush& push) {
-  declare(graph, FluidPass::NoSlipSums, Start::Correct, push);
+// Bodies first get the velocity that they will have, so that the fluid sticks to that.
+void FluidImpl::declareNoSlip(Graph& graph) {
+  declare(graph, FluidPass::NoSlipSums, Start::Correct);
   declare(graph, FluidPass::NoSlipBodies, Start::Correct);
-  declare(graph, FluidPass::NoSlip, Start::Correct, push);
-  declare(graph, FluidPass::NoSlipLoads, Start::Correct, push);
+  declare(graph, FluidPass::NoSlip, Start::Correct);
+  declare(graph, FluidPass::NoSlipLoads, Start::Correct, LoadPush{1});
 }
 
 void FluidImpl::declareNoiseDamping(Graph& graph) {

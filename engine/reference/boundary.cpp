@@ -104,7 +104,7 @@ void ReferenceSolver::addImages(uint32_t i, std::span<const uint32_t> neighbors)
     const auto add = [&](uint32_t j) {
       const glm::dvec3 r = image.sign * (image.of(x) - state.predicted[j]);
       const double length = glm::length(r);
-      if (length < kernel_.h()) pairs_.push_back({j, image.sign, kernel_.value(length), kernel_.gradientOverR(length) * r, {}});
+      if (length < kernel_.h()) pairs_.push_back({j, r, image.sign, kernel_.value(length), kernel_.gradientOverR(length) * r, {}});
     };
     add(i);
     for (const uint32_t j : neighbors) add(j);

@@ -36,7 +36,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.tensileRadius = scene.fluid.tensile_radius;
   s.tensilePower = scene.fluid.tensile_power;
   s.viscosity = scene.fluid.viscosity;
-  s.viscositySweeps = scene.fluid.viscosity > 0 ? static_cast<int>(setup.viscositySweeps) : 1;
+  s.viscositySteps = static_cast<int>(setup.params.viscositySteps);
   s.noSlipWalls = scene.domain && !scene.domain->slip;
   s.meltingTime = meltingTime(scene);
   s.viscosityAtRest = setup.artificialViscosity;

@@ -163,7 +163,7 @@ void ReferenceSolver::updateRestFactor() {
 ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
   const glm::dvec3 r = state.predicted[i] - state.predicted[j];
   const double length = glm::length(r), h = kernel_.h();
-  Pair pair{.j = j, .value = kernel_.value(length)};
+  Pair pair{.j = j, .offset = r, .value = kernel_.value(length)};
   if (length >= kCoincidentDistance * h) {
     pair.gradient = kernel_.gradientOverR(length) * r;
   } else {
@@ -320,26 +320,15 @@ double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
   return 2 * viscosity * dt / (settings.density * kernel_.secondMoment());
 }
 
-void ReferenceSolver::viscosity(double dt) {
-  const double c = xsphCoefficient(settings.viscosity, dt) / settings.viscositySweeps;
-  for (int sweep = 0; sweep < settings.viscositySweeps; ++sweep) {
-    add(c, meanDifference(state.velocity, settings.noSlipWalls));
-    if (std::ranges::find(settings.solids, false, &Solid::slip) != settings.solids.end()) noSlip(c, dt);
-  }
-}
-
 void ReferenceSolver::dampNoise(double dt) {
   const double c = std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxNoiseDamping});
   add(-c, meanDifference(meanDifference(state.velocity)));
 }
 
-std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v, bool reversed) const {
+std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v) const {
   std::vector<glm::dvec3> difference(size(), glm::dvec3(0));
   for (size_t i = 0; i < size(); ++i)
-    for (const Pair& pair : pairs(i)) {
-      const glm::dvec3 factor = reversed ? glm::dvec3(pair.sign.x * pair.sign.y * pair.sign.z) : pair.sign;
-      difference[i] += pair.value * (factor * v[pair.j] - v[i]);
-    }
+    for (const Pair& pair : pairs(i)) difference[i] += pair.value * (pair.sign * v[pair.j] - v[i]);
   return difference;
 }
 

@@ -91,7 +91,7 @@ struct ReferenceSettings {
   double tensilePower = 16;     ///< n
 
   double viscosity = 0;                                         ///< mu, Pa s
-  int viscositySweeps = 1;                                      ///< n: XSPH sweeps per substep, each with c/n < 1
+  int viscositySteps = 0;                                       ///< of its solve, at most, as the shaders take them; 0: solved exactly
   bool noSlipWalls = false;                                     ///< viscous fluid sticks to the walls
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
   double drag = 0;                                              ///< 1/s
@@ -113,6 +113,7 @@ class ReferenceSolver {
   /// A neighbor j of particle i in the last density evaluation, or its image behind a wall (of i itself, too).
   struct Pair {
     uint32_t j = 0;
+    glm::dvec3 offset = {0, 0, 0};    ///< x_i - x_j, of the image of j; m
     glm::dvec3 sign = {1, 1, 1};      ///< of the image: -1 along the normals of the walls that it is behind
     double value = 0;                 ///< K_ij
     glm::dvec3 gradient = {0, 0, 0};  ///< G_ij, 1/m
@@ -148,7 +149,7 @@ class ReferenceSolver {
   void multipliers(bool firstIteration);    ///< lambda, dlambda; w in the first iteration
   void correction(double dt, double push);  ///< x*; `push`: artificial pressure times D_rest
   void velocities(double dt);               ///< v, x; adds dt to time()
-  void viscosity(double dt);                ///< v: v_i += c/n sum_j K_ij (v_j - v_i), then noSlip(), n times
+  void viscosity(double dt);                ///< v: v' = v + dt f(v'), f the force of sph/viscosity.hpp; then noSlip()
   void dampNoise(double dt);  ///< v: v -= c L(L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest, at most kMaxNoiseDamping
   /// Vorticity confinement (Macklin and Mueller 2013, eq. 15 and 16, with a dimensionless coefficient):
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
@@ -214,19 +215,20 @@ class ReferenceSolver {
   void deactivate(size_t i);
   void addSpeed(double speed);
   void updateRestFactor();
-  double densityScale() const;  ///< factor on the fluid's part of the density
-  /// sum_j K_ij (v_j - v_i). `reversed`: of images -v_j, else mirrored.
-  std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v, bool reversed = false) const;
-  /// How a solid holds a particle in a sweep of viscosity; see docs/notes/slip.md.
+  double densityScale() const;                                                             ///< factor on the fluid's part of the density
+  std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;          ///< sum_j K_ij (v_j - v_i)
+  std::vector<glm::dvec3> viscousForce(double c, const std::vector<glm::dvec3>& v) const;  ///< c sum_j w q (q . (v_j - v_i))
+  double viscosityBound(double c, std::span<const double> held) const;  ///< as the shaders bound eigenvalues; held: by solids
+  /// How a solid holds a particle of viscous fluid; see docs/notes/slip.md.
   struct Adhesion {
     size_t particle, solid;
     double strength;     ///< a_k
     glm::dvec3 at;       ///< m, the particle's image
     glm::dvec3 reverse;  ///< factors of its velocity there
   };
-  std::vector<Adhesion> adhesions(std::span<const Pose> poses, double c) const;  ///< by particle
-  void noSlip(double c, double dt);                                              ///< v, bodies: after a sweep of coefficient c
-  void add(double factor, const std::vector<glm::dvec3>& change);                ///< to the velocities
+  std::vector<Adhesion> adhesions(std::span<const Pose> poses, double c, bool ofBodies) const;  ///< by particle
+  void noSlip(double c, double dt);                                ///< v, bodies: with the factor c of the force
+  void add(double factor, const std::vector<glm::dvec3>& change);  ///< to the velocities
 
   SmoothingKernel kernel_;
   double liquidScale_;

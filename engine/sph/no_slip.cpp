@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sph/viscosity.hpp"
+
 namespace rill {
 
 double noSlipLength(const SmoothingKernel& kernel, double s) {
@@ -11,7 +13,8 @@ double noSlipLength(const SmoothingKernel& kernel, double s) {
   double moment = 0;
   for (double behind = y + d / 2; behind < h; behind += d)
     for (int j = -reach; j <= reach; ++j)
-      for (int k = -reach; k <= reach; ++k) moment += behind * kernel.value(std::sqrt(behind * behind + d * d * (j * j + k * k)));
+      for (int k = -reach; k <= reach; ++k)
+        moment += behind * viscousWeight(std::sqrt(behind * behind + d * d * (j * j + k * k)) / h) * d * d * j * j / (h * h);
   const double slope = -exactPlane(kernel, y).slope;
   return slope > 0 ? moment / (y * slope) : 0;
 }

@@ -7,9 +7,9 @@
 namespace rill {
 
 /// Q(s), m, at signed distance s (m). Times |grad B| of a solid it is the coefficient of a particle's velocity relative to the solid, in
-/// units of XSPH's c: of a plane wall what ghost layers add to the sum of XSPH whose velocity goes on linearly from the particle's, through
-/// the wall's at the wall,
-///   Q(s) |F'(s)| = sum_ghosts K_k b_k / s,  b_k = s + d/2 + k d from the particle.
+/// units of the factor c of sph/viscosity.hpp: of a plane wall what ghost layers add to the force along it whose velocity goes on linearly
+/// from the particle's, through the wall's at the wall,
+///   Q(s) |F'(s)| = sum_ghosts w_k q_k^2 b_k / s,  w the viscous weight, q along the wall, b_k = s + d/2 + k d from the particle.
 /// For s < d/2 it is that at d/2, the smallest distance of centers.
 double noSlipLength(const SmoothingKernel& kernel, double s);
 

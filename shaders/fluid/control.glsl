@@ -60,6 +60,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
   sums.errorLow = 0u;
   sums.errorHigh = 0u;
   sums.errorMax = 0u;
+  sums.viscosityBound = 0u;
 
   if (first) control.phase = control.nextPhase;
   if (first && control.phase != kPhaseAdvancing) {

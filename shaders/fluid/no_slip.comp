@@ -1,5 +1,5 @@
 #version 460
-// Fluid sticks to solids: after a sweep of viscosity, an implicit step toward their velocity. LOADS: its reaction.
+// Fluid sticks to bodies: after the solve of viscosity, an implicit step toward their velocity. LOADS: the reaction on all solids.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"
@@ -9,13 +9,12 @@ READ_UINT(7, meshWord)
 #include "shared/shape.glsl"
 layout(local_size_x = kFluidGroup) in;
 
-layout(push_constant) uniform Push { NoSlipPush push; };
 READ_UINT4(2, work)        // the prediction that XSPH is of
 READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 8) buffer SweepToBlock { vec4 sweepTo[]; };
+layout(std430, binding = 8) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
 #include "fluid/no_slip.glsl"
 #include "fluid/solid_sums.glsl"
@@ -39,9 +38,10 @@ void main() {
   uvec4 near = nearSolidsAt(n);
   vec3 x = uintBitsToFloat(workAt(near.x).xyz);
   if (!isActive(x)) return;
-  Adhesion a = adhesionAt(near.yzw, x);
-  if (!(a.all > 0.0)) return;
-  vec3 v = (sweepTo[near.x].xyz + a.pull) / (1.0 + a.all);
-  sweepTo[near.x].xyz = v;
+  vec3 v = velocity[near.x].xyz;
+  if (BODIES) {
+    Adhesion a = adhesionAt(near.yzw, x, true);
+    if (a.all > 0.0) velocity[near.x].xyz = v = (v + a.pull) / (1.0 + a.all);
+  }
   if (LOADS) addReactions(near.yzw, x, v);
 }

@@ -1,4 +1,4 @@
-// How solids hold viscous fluid after a sweep of XSPH: what fluid in their place would add to it. See docs/notes/slip.md.
+// How solids hold viscous fluid: what fluid in their place would add to its force. See docs/notes/slip.md.
 // Needs what fluid/solid_density.glsl needs, and `push`.
 #ifndef RILL_NO_SLIP_GLSL
 #define RILL_NO_SLIP_GLSL
@@ -8,7 +8,7 @@
 #include "shared/loops.glsl"
 
 // A particle's velocity in the image with these signs, and the other way round.
-vec3 imageVelocity(vec3 signs, vec3 v) { return NO_SLIP_WALLS ? signs.x * signs.y * signs.z * v : signs * v; }
+vec3 imageVelocity(vec3 signs, vec3 v) { return NO_SLIP_WALLS ? signs.x * signs.y * signs.z * signs * v : signs * v; }
 
 // The coefficient of solid k at x, an image of a particle; 0 of one that slips.
 float adhesion(uint k, vec3 x) {
@@ -17,23 +17,24 @@ float adhesion(uint k, vec3 x) {
   if (gradient == vec3(0.0)) return 0.0;
   gradient *= shareOfImage(solids[k], x);
   float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
-  float c = params.viscosityRate * control.step * push.share;
-  return c * length(gradient) * line(params.noSlipTable, params.tableNodes, distance).x;
+  return params.viscosityRate * control.step * length(gradient) * line(params.noSlipTable, params.tableNodes, distance).x;
 }
 
-// Sums over all solids, and their images, of a particle.
+// Sums over solids, and their images, of a particle.
 struct Adhesion {
   float all;
   vec3 pull;  // of the coefficients times the solids' velocities
 };
 
-Adhesion adhesionAt(uvec3 near, vec3 x) {
+// Of bodies, or of the other solids.
+Adhesion adhesionAt(uvec3 near, vec3 x, bool ofBodies) {
   Adhesion sum = Adhesion(0.0, vec3(0.0));
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+      if ((solids[k].body != kNoBody) != ofBodies) continue;
       float a = adhesion(k, image);
       sum.all += a;
       sum.pull += a * imageVelocity(signs, velocityAt(solids[k].pose, image));

@@ -1,5 +1,5 @@
 #version 460
-// The velocity of each body at the end of a sweep, to which the fluid will stick: of body and particles together, so that
+// The velocity of each body after the solve of viscosity, to which the fluid will stick: of body and particles together, so that
 // a light body is not carried too far. With m of a particle and the sums over b of no_slip_sums.comp, the changes v of its
 // velocity and w of its angular velocity follow from
 //   (M / m + sum b) v + w x sum b r = sum b w_i,   sum b r x v + (I / m + sum b (r^2 - r r^T)) w = sum b r x w_i.

@@ -1,11 +1,11 @@
 #version 460
-// Loads on solids, and velocities of bodies, from what the fluid that sticks to them got in a sweep. One workgroup.
+// Loads on solids, and velocities of bodies, from what the fluid that sticks to them got. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/pose.glsl"
 #include "shared/body_records.h"
 layout(local_size_x = 64) in;
-layout(push_constant) uniform Push { NoSlipPush push; };
+layout(push_constant) uniform Push { LoadPush push; };
 layout(std430, binding = 2) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 3) buffer SolidLoadBlock { SolidLoadRecord solidLoads[]; };
 layout(std430, binding = 4) buffer SolidBlock { SolidRecord solids[]; };

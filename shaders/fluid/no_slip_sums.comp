@@ -10,13 +10,12 @@ READ_UINT(7, meshWord)
 #include "shared/body_records.h"
 layout(local_size_x = kFluidGroup) in;
 
-layout(push_constant) uniform Push { NoSlipPush push; };
 READ_UINT4(2, work)
 READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 8) readonly buffer SweepToBlock { vec4 sweepTo[]; };
+layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 10) readonly buffer BodyBlock { BodyRecord bodies[]; };
 #include "fluid/no_slip.glsl"
@@ -40,9 +39,9 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   uvec4 near = nearSolidsAt(n);
-  vec3 x = uintBitsToFloat(workAt(near.x).xyz), v = sweepTo[near.x].xyz;
+  vec3 x = uintBitsToFloat(workAt(near.x).xyz), v = velocity[near.x].xyz;
   if (!isActive(x)) return;
-  Adhesion all = adhesionAt(near.yzw, x);
+  Adhesion all = adhesionAt(near.yzw, x, true);
   if (!(all.all > 0.0)) return;
   Images images = imagesNear(x, params.support);
   bool more = true;

@@ -1,21 +1,27 @@
 #version 460
-// One sweep of XSPH, its coefficient that of the fluid's dynamic viscosity in Pa s.
+// The residual of the implicit step of viscosity for the velocities as they are, and a bound of its eigenvalues.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
 #include "fluid/arrays.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(push_constant) uniform Push { SweepPush push; };
-READ_FLOAT4(8, sweepFrom)
-layout(std430, binding = 9) writeonly buffer SweepToBlock { vec4 sweepTo[]; };
-#define REVERSES NO_SLIP_WALLS
-#include "fluid/xsph.glsl"
+layout(push_constant) uniform Push { ChunkPush push; };
+READ_FLOAT4(8, velocity)
+layout(std430, binding = 9) writeonly buffer ResidualBlock { vec4 residual[]; };
+layout(std430, binding = 10) readonly buffer HoldBlock { vec4 hold[]; };
+#define VISCOUS_AT(j) velocityAt(j)
+#define BOUNDS
+#include "fluid/viscous_force.glsl"
 
 void main() {
   uint i;
-  if (!gatherDifference(i)) return;
-  sweepTo[i] = vec4(own.xyz + params.viscosityRate * control.step * push.share * difference, own.w);
-  if (i == 0u) sweepTo[params.capacity] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
+  bool inRange = gatherForce(i);
+  vec4 held = vec4(0.0);
+  if (inRange) held = HOLD_AT(i);
+  float most = subgroupMax(eigenvalueBound() + held.w);
+  if (subgroupElect()) atomicMax(sums.viscosityBound, floatBitsToUint(most));
+  if (inRange) residual[i] = vec4(sleeps(head) ? vec3(0.0) : force + held.xyz - held.w * own, 0.0);
 }

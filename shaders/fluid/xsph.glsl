@@ -1,7 +1,7 @@
 // The difference of the kernel's mean of `sweepFrom` from a particle's own, sum_j K_ij (v_j - v_i), which XSPH
 // adds (Schechter and Bridson 2012; Macklin and Mueller 2013, equation 17). The pairs are those of the density
-// pass: gathers from `work`. Include it after `push` and `sweepFrom` are declared. REVERSES: the velocity of images is
-// reversed where fluid sticks to walls; else they move as in a mirror.
+// pass: gathers from `work`. Include it after `push` and `sweepFrom` are declared. Images move as in a
+// mirror, also where fluid sticks to walls.
 #ifndef RILL_FLUID_XSPH_GLSL
 #define RILL_FLUID_XSPH_GLSL
 #include "fluid/cluster.glsl"
@@ -17,11 +17,7 @@ void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
   difference += kernelShape(sqrt(dot(r, r))) * (companion.xyz - own.xyz);
 }
-#ifndef REVERSES
-#define REVERSES false
-#endif
 void reflectSums(vec3 signs) {
-  if (REVERSES) signs = vec3(signs.x * signs.y * signs.z);
   difference *= signs;
   own.xyz *= signs;
 }

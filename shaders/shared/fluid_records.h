@@ -70,7 +70,7 @@ struct FluidParams {
   float reach;            // m, support plus skin: the list holds what was nearer when it was built
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
   float cfl;              // spacings a substep
-  float maxStep;          // s, as the scene asks for, and at which its viscosity is stable; see stability.glsl
+  float maxStep;          // s, as the scene asks for; see stability.glsl
   float tolerance;        // mean compression aimed for; 0: none
   uint maxSubsteps;       // an advance
   uint iterations;        // Jacobi iterations a substep, at most
@@ -82,7 +82,8 @@ struct FluidParams {
   float tableStep;        // m between nodes of the tables
   uint tableNodes;        // of the half-space's table, which comes first
   uint noSlipTable;       // entries before the table of engine/sph/no_slip.hpp, of the same nodes; 0: no solid needs it
-  float viscosityRate;    // XSPH coefficient a second of step, 1/s
+  float viscosityRate;    // of the force of pairs a second of step, 1/s: see engine/sph/viscosity.hpp
+  uint viscositySteps;    // of the solve for viscosity, at most
   float noiseDampingRate;      // coefficient of noise damping a second of block, in a fluid at rest, 1/s
   float vorticity;        // dimensionless
   float drag;             // 1/s
@@ -207,6 +208,10 @@ struct FluidSums {
   uint columnSumLowX, columnSumLowY, columnSumLowZ;
   uint columnSumHighX, columnSumHighY, columnSumHighZ;
   uint asleep;               // particles in regions that sleep, at the last build
+  uint viscosityBound;       // bits of a bound of the eigenvalues of the last solve for viscosity
+  uint viscositySteps;       // of it, and what they follow from (shared/viscosity_steps.h)
+  float viscosityCenter, viscosityHalfWidth, viscosityDecay;
+  uint viscosityBoundHits;   // solves since the start that needed more than FluidParams::viscositySteps
   uint motionLow, motionHigh;  // 64-bit sum of squared speeds over gravity times spacing, in kMotionUnit
 };
 RILL_CONST float kMotionUnit = 1.0f / 67108864.0f;
@@ -268,16 +273,6 @@ struct LoadPush {
 
 struct ContactPush {
   uint iteration;      // 0 is the first
-};
-
-struct SweepPush {
-  uint first, last;    // as in ChunkPush
-  float share;         // 1 / sweeps
-};
-
-struct NoSlipPush {
-  float share;         // 1 / sweeps
-  uint ends;           // 1: the last sweep of a substep
 };
 
 struct ChunkPush {

@@ -173,12 +173,6 @@ TEST_F(BoundsTest, RejectsStepsTooShortForFloats) {
   scene.solver.time_step = 1e-5;
   EXPECT_TRUE(makeFluidSetup(scene, {.capacity = 360, .extent = {0.3, 0.6, 0.3}}));
 
-  scene = dam().scene;
-  scene.fluid.viscosity = 1e9;
-  const auto viscous = makeFluidSetup(scene, {.capacity = 360, .extent = {0.3, 0.6, 0.3}});
-  ASSERT_FALSE(viscous);
-  EXPECT_TRUE(viscous.error().message.starts_with("fluid.viscosity: 1e+09 Pa s needs steps of at most ")) << viscous.error().message;
-
   scene = {};
   scene.fluid.spacing = 0.01;
   EXPECT_TRUE(makeFluidSetup(scene, {.capacity = 8000, .extent = {500, 0.2, 0.2}})) << "two drops far apart";

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <span>
 
 #include "fluid/rig.hpp"
@@ -97,7 +98,7 @@ TEST_F(NoSlipTest, WallsMatchReference) {
 
 TEST_F(NoSlipTest, SolidsMatchReference) {
   expectEqual(crowded(20), 3, 2e-3, 2e-3);
-  Trial t = crowded(2500);  // several sweeps
+  Trial t = crowded(2500);  // several steps
   t.scene.domain->slip = false;
   t.scene.solids[0].slip = true;
   expectEqual(t, 3, 2e-3, 2e-3);
@@ -108,7 +109,7 @@ TEST_F(NoSlipTest, LoadsMatchReference) { expectReferenceMotion(crowded(200), 3,
 TEST_F(NoSlipTest, BodiesMatchReference) {
   Trial t = stream();
   expectReferenceMotion(t, 5, 5e-3);
-  t.scene.fluid.viscosity = 3000;  // several sweeps
+  t.scene.fluid.viscosity = 3000;  // several steps
   expectReferenceMotion(t, 3, 5e-3);
 }
 
@@ -148,34 +149,40 @@ TEST_F(NoSlipTest, LightBodyIsCarriedAlong) {
 constexpr double kSpeed = 0.02, kGap = 0.5, kWidth = 0.25, kLong = 1.5;  // m/s, m
 
 /// Fluid between a floor at rest and a lid that moves, both solids.
-Trial plates(double speed = kSpeed) {
+Trial plates(double speed = kSpeed, double length = kLong) {
   Trial t = trial();
   t.scene.gravity[1] = 0;
   t.scene.fluid.viscosity = 500;
-  setWalls(t, {kLong, kGap, kWidth}, 0b001111);
+  setWalls(t, {length, kGap, kWidth}, 0b001111);
   constexpr double kThick = 0.3;
-  t.scene.solids = {slab({0, -kThick, -kThick}, {kLong, 0, kWidth + kThick}),
-                    slab({0, kGap, -kThick}, {kLong, kGap + kThick, kWidth + kThick})};
+  t.scene.solids = {slab({0, -kThick, -kThick}, {length, 0, kWidth + kThick}),
+                    slab({0, kGap, -kThick}, {length, kGap + kThick, kWidth + kThick})};
   for (Solid& solid : t.scene.solids) solid.slip = false;
   t.scene.solids[1].motion = {{0, {0, 0, 0}}, {10, {10 * speed, 0, 0}}};
   t.loads = true;
-  t.x = block({24, 8, 4}, t.d());
+  t.x = block({static_cast<int>(length / t.d()), 8, 4}, t.d());
   return t;
 }
 
+// The fluid's free ends bear no shear: the load is judged by what plates of twice the length add.
 TEST_F(NoSlipTest, ShearsFluidBetweenPlates) {
-  const Trial t = plates();
-  auto run = start(t);
-  for (int n = 0; n < 5; ++n) run->substeps(60);
-  const Snapshot s = run->snapshot();
-  for (size_t i = 0; i < s.x.size(); ++i) {
-    if (std::abs(s.x[i].x - kLong / 2) > kGap / 2) continue;
-    EXPECT_NEAR(s.v[i].x, kSpeed * s.x[i].y / kGap, 0.02 * kSpeed) << i;
-    EXPECT_LT(std::hypot(s.v[i].y, s.v[i].z), 0.02 * kSpeed) << i;
+  glm::dvec2 loads(0);
+  double shear = 0;
+  for (const double length : {kLong, 2 * kLong}) {
+    const Trial t = plates(kSpeed, length);
+    auto run = start(t);
+    for (int n = 0; n < 5; ++n) run->substeps(60);
+    const Snapshot s = run->snapshot();
+    for (size_t i = 0; i < s.x.size(); ++i) {
+      if (std::abs(s.x[i].x - length / 2) > kGap / 2) continue;
+      EXPECT_NEAR(s.v[i].x, kSpeed * s.x[i].y / kGap, 0.02 * kSpeed) << i;
+      EXPECT_LT(std::hypot(s.v[i].y, s.v[i].z), 0.02 * kSpeed) << i;
+    }
+    for (int k = 0; k < 2; ++k) loads[k] = run->fluid().solidLoads()[k].force.x - loads[k];
+    shear = t.scene.fluid.viscosity * kSpeed / kGap * kLong * kWidth;
   }
-  const double shear = t.scene.fluid.viscosity * kSpeed / kGap * kLong * kWidth;
-  EXPECT_NEAR(run->fluid().solidLoads()[0].force.x, shear, 0.05 * shear);
-  EXPECT_NEAR(run->fluid().solidLoads()[1].force.x, -shear, 0.05 * shear);
+  EXPECT_NEAR(loads[0], shear, 0.05 * shear);
+  EXPECT_NEAR(loads[1], -shear, 0.05 * shear);
 }
 
 TEST_F(NoSlipTest, LoadsOfPlatesEqualTheChangeOfMomentum) {

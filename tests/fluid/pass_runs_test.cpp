@@ -54,7 +54,7 @@ TEST_F(PassRunsTest, CountsPassesThatMayBeEmpty) {
   EXPECT_EQ(ran.at("build list"), p.listBuilds + 1u) << "and once at the start";
   EXPECT_EQ(ran.at("sort/"), p.listBuilds + 1u);
   for (const char* each :
-       {"correct", "collide", "predict after forces", "predict at solids", "viscosity", "copy velocities", "curl", "confine"})
+       {"correct", "collide", "predict after forces", "predict at solids", "viscosity", "viscosity start", "curl", "confine"})
     EXPECT_EQ(ran.at(each), p.substeps) << each;
   for (const char* each : {"density", "density of solids"}) EXPECT_EQ(ran.at(each), p.iterations) << each;
   EXPECT_EQ(ran.at("iterate"), p.iterations - p.substeps);

@@ -99,7 +99,7 @@ TEST_F(SubstepTest, WideSupportMatchesReference) {
   expectEqual(t, 10, kTen, kTen);
 }
 
-TEST_F(SubstepTest, OneSweepOfViscosityMatchesReference) {
+TEST_F(SubstepTest, OneStepOfViscosityMatchesReference) {
   Trial t = trial();
   t.scene.fluid.viscosity = 20;
   setWalls(t, {1, 1, 1});
@@ -179,7 +179,7 @@ TEST_F(SubstepTest, ArtificialViscosityDampsNoise) {
   EXPECT_GT(saidFull, 0.5 * atRest);
 }
 
-TEST_F(SubstepTest, SeveralSweepsOfViscosityMatchReference) {
+TEST_F(SubstepTest, SeveralStepsOfViscosityMatchReference) {
   Trial t = trial();
   t.scene.fluid.viscosity = 2500;
   setWalls(t, {1, 1, 1});

@@ -1,0 +1,28 @@
+#version 460
+// How solids hold the particles near them that stick to one, for the solve of viscosity; bodies follow in no_slip.comp.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "shared/arrays.glsl"
+READ_UINT(7, meshWord)
+#define MESH_WORDS
+#include "shared/pose.glsl"
+#include "shared/shape.glsl"
+layout(local_size_x = kFluidGroup) in;
+
+READ_UINT4(2, work)
+READ_UINT4(3, nearSolids)  // NearSolidRecord
+layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
+READ_FLOAT4(5, table)
+layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+layout(std430, binding = 8) writeonly buffer HoldBlock { vec4 hold[]; };
+#include "fluid/no_slip.glsl"
+
+void main() {
+  uint n = flatInvocation();
+  if (n >= sums.nearSolids) return;
+  uvec4 near = nearSolidsAt(n);
+  vec3 x = uintBitsToFloat(workAt(near.x).xyz);
+  Adhesion a = Adhesion(0.0, vec3(0.0));
+  if (isActive(x)) a = adhesionAt(near.yzw, x, false);
+  hold[near.x] = vec4(a.pull, a.all);
+}

@@ -1,0 +1,66 @@
+// dt L of viscosity, negative: c sum_j (1-q)^3 q q^T (v_j - v_i), q from j to i over the support. The force of a pair is along its line and
+// proportional to the speed along it: it keeps angular momentum. The pairs are those of the density pass: gathers from `work`.
+// Include it after `push` is declared, with VISCOUS_AT(j) the velocity of j. BOUNDS: also bounds the eigenvalues of 1 + dt L.
+#ifndef RILL_FLUID_VISCOUS_FORCE_GLSL
+#define RILL_FLUID_VISCOUS_FORCE_GLSL
+#include "fluid/cluster.glsl"
+
+#define COMPANION(j) VISCOUS_AT(j)
+
+float inverseSupport = params.inverseSupport;  // loaded once, see kernel.glsl
+vec3 here, own;
+uint head;
+vec3 force = vec3(0.0);
+#ifdef BOUNDS
+vec3 diagonal = vec3(0.0), mixed = vec3(0.0);  // of sum_j (1-q)^3 q q^T; mixed: yz, zx, xy
+#endif
+
+void visit(vec4 particle, vec4 companion) {
+  vec3 q = (here - particle.xyz) * inverseSupport;
+  float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = t * t * t;
+  force += weight * dot(q, companion.xyz - own) * q;
+#ifdef BOUNDS
+  diagonal += weight * q * q;
+  mixed += weight * q.yzx * q.zxy;
+#endif
+}
+
+// The velocity of images is as in a mirror; where fluid sticks to walls it is reversed along them instead, for each
+// wall. Either way L stays symmetric.
+void reflectSums(vec3 signs) {
+  vec3 image = NO_SLIP_WALLS ? signs.x * signs.y * signs.z * signs : signs;
+  force *= image;
+  own *= image;
+#ifdef BOUNDS
+  mixed *= signs.yzx * signs.zxy;
+#endif
+}
+#define IMAGES
+#include "fluid/neighbors.glsl"
+
+// Gathers `force` of the invocation's particle i; false where it has none. 0 for one that sleeps.
+bool gatherForce(out uint i) {
+  uint local = clusterInvocation();
+  i = push.first + local;
+  bool inRange = i < min(push.last, control.solved);
+  if (!inRange) i = params.capacity;
+  here = particleAt(i).xyz;
+  own = VISCOUS_AT(i).xyz;
+  head = headOf(i, inRange);
+  bool moves = inRange && !sleeps(head);
+  visitNeighbors(i, moves ? head : 0u, local, moves);
+  force *= params.viscosityRate * control.step;
+  return inRange;
+}
+
+// xyz: the pull of solids that the particle sticks to, w: the coefficient of its velocity. 0 where there are none.
+#define HOLD_AT(i) (NO_SLIP_SOLIDS && (head & kNearSolidsBit) != 0u ? hold[i] : vec4(0.0))
+
+#ifdef BOUNDS
+// Of the eigenvalues that the particle's row may have: twice a norm of its own block.
+float eigenvalueBound() {
+  vec3 rows = diagonal + abs(mixed.zxy) + abs(mixed.yzx);
+  return 1.0 + 2.0 * params.viscosityRate * control.step * max(rows.x, max(rows.y, rows.z));
+}
+#endif
+#endif
