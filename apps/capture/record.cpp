@@ -191,6 +191,7 @@ std::vector<Figure> Record::figures() const {
       {"non_finite", of(&Stats::nonFinite)(largest), ""},
       {"neighbour_overflow", of(&Stats::neighborOverflow)(largest), ""},
       {"loop_bound_hits", of(&Stats::loopBoundHits)(largest), ""},
+      {"viscosity_bound_hits", double(last.viscosityBoundHits), ""},
       {"picture_bound_hits", double(pictureBoundHits()), ""},
   };
   const FluidLedger& ledger = last.ledger;
@@ -287,8 +288,8 @@ std::vector<std::string> Record::warnings() const {
   if (const double dropped = droppedSeconds(); dropped > 0)
     warnings.push_back("warning: " + roundedNumber(dropped) + " s of " + roundedNumber(simulatedSeconds() + dropped) +
                        " s were dropped: " + std::to_string(scene_->solver.max_substeps) +
-                       " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed, weight and "
-                       "viscosity and solver.time_step allow");
+                       " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed and weight and "
+                       "solver.time_step allow");
   if (last.viscosityBoundHits > 0)
     warnings.push_back("warning: in " + grouped(last.viscosityBoundHits) +
                        " substeps viscosity needed more steps than its solve takes: fluid.viscosity acted as less");

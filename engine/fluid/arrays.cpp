@@ -180,7 +180,7 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .lists = lists,
           .warm = startsWarm(scene),
           .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,
-          .viscous = scene.fluid.viscosity > 0,  // noise damping shares memory with a rebuild
+          .viscous = scene.fluid.viscosity > 0,
           .vorticity = scene.fluid.vorticity > 0,
           .loads = !scene.solids.empty(),  // a host may ask for them
           .noSlipSolids = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid); }),

@@ -68,7 +68,8 @@ void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
 }
 
 void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  setup.params.viscosityRate = f(viscosityRate(scene.fluid.viscosity, scene.fluid.density, kernel));
+  constexpr double kMaxViscosityRate = 1e20;  // 1/s; in a step far more than the solve takes, and its squares are floats
+  setup.params.viscosityRate = f(std::min(viscosityRate(scene.fluid.viscosity, scene.fluid.density, kernel), kMaxViscosityRate));
 }
 
 // As many steps as the longest substep asks for where the fluid is somewhat denser than its rest lattice.

@@ -40,13 +40,14 @@ struct Table<Look> {
                  .help = "true: foam, spray and bubbles are simulated as diffuse particles; false: drops and thin sheets are drawn white",
                  .since = "0.2"},
             &Look::whitewater},
-      Field{Info{.key = "spray_exposure",
-                 .unit = "s",
-                 .range = between(0, 1),
-                 .help = "spray of simulated whitewater is drawn as streaks as long as its way in this time; with --shutter, in a sample's "
-                         "part of the time that the shutter is open; 0: round dots",
-                 .since = "0.2"},
-            &Look::spray_exposure},
+      Field{
+          Info{.key = "spray_exposure",
+               .unit = "s",
+               .range = between(0, 1),
+               .help = "spray of simulated whitewater is drawn as streaks as long as its path in this time; with --shutter, in a sample's "
+                       "part of the time that the shutter is open; 0: round dots",
+               .since = "0.2"},
+          &Look::spray_exposure},
       Field{Info{.key = "caustics",
                  .help = "true: the fluid's surface refracts sunlight onto the floor and solids; false: fluid casts a plain shadow",
                  .since = "0.2"},

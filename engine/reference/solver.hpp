@@ -13,7 +13,7 @@
 //                 substep to substep (warm start)
 //   correction    x*_i += sum_j a_ij (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then projected out of solids and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
-//   viscosity     XSPH, and noise damping of slow fluid;  vorticity   confinement;  drag   linear
+//   viscosity     an implicit step, and noise damping of slow fluid;  vorticity   confinement;  drag   linear
 //   predict       w_i *= (dt_next/dt)^2,
 //                 x*_i = x_i + dt_next (v_i + g dt_next) + sum_j a_ij (w_i + w_j) G_ij + w_i grad B_i, then projected out of solids and
 //                 walls

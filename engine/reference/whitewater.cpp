@@ -57,8 +57,8 @@ std::vector<WhiteWall> wallsOf(const WhitewaterDesc& desc) {
 
 dvec3 backAgain(const Pose& pose, const Double3& local) { return whiteVector(pose.center) + whiteVector(toScene(pose, local)); }
 
-/// A particle's way in a step, cut off where it first meets each solid.
-struct WhiteWay {
+/// A particle's path in a step, cut off where it first meets each solid.
+struct WhitePath {
   dvec3 to, velocity;
   bool met = false;
 };
@@ -80,19 +80,19 @@ std::optional<double> entryOf(const WhiteSolid& solid, const Double3& from, cons
   return std::nullopt;
 }
 
-/// From x to `to`: in the frame of a solid, which moves and turns back to its place at the begin of the step, the way is a straight line.
-WhiteWay heldBack(const WhiteFluid& fluid, const dvec3& x, const dvec3& to, const dvec3& velocity, double seconds) {
-  WhiteWay way{to, velocity};
+/// From x to `to`: in the frame of a solid, which moves and turns back to its place at the start of the step, the path is a straight line.
+WhitePath heldBack(const WhiteFluid& fluid, const dvec3& x, const dvec3& to, const dvec3& velocity, double seconds) {
+  WhitePath path{to, velocity};
   for (const WhiteSolid& solid : fluid.solids) {
     Pose before = solid.pose;
     for (glm::length_t a = 0; a < 3; ++a) before.center[a] -= seconds * before.velocity[a];
     before.rotation = turned(before.rotation, -seconds, before.angularVelocity);
-    const Double3 from = localPoint(before, {x.x, x.y, x.z}), end = localPoint(solid.pose, {way.to.x, way.to.y, way.to.z});
+    const Double3 from = localPoint(before, {x.x, x.y, x.z}), end = localPoint(solid.pose, {path.to.x, path.to.y, path.to.z});
     const dvec3 line = whiteVector(end) - whiteVector(from);
     const double length = glm::length(line);
     const dvec3 along = length > 0 ? line / length : dvec3(0);
     const std::optional<double> entry = length > 0 ? entryOf(solid, from, along, length) : std::nullopt;
-    dvec3 at = way.to;
+    dvec3 at = path.to;
     if (entry && *entry <= length) {
       const dvec3 local = whiteVector(from) + *entry * along;
       at = backAgain(solid.pose, {local.x, local.y, local.z});
@@ -101,12 +101,12 @@ WhiteWay heldBack(const WhiteFluid& fluid, const dvec3& x, const dvec3& to, cons
     }
     const SurfacePoint surface = whiteDistance(solid, at);
     const dvec3 normal = whiteVector(surface.normal);
-    way.met = true;
-    way.to = at + (double{kWhiteClearance} * fluid.spacing - surface.distance) * normal;
-    const dvec3 moving = whiteVector(velocityAt(solid.pose, {way.to.x, way.to.y, way.to.z}));
-    way.velocity -= std::min(glm::dot(way.velocity - moving, normal), 0.0) * normal;
+    path.met = true;
+    path.to = at + (double{kWhiteClearance} * fluid.spacing - surface.distance) * normal;
+    const dvec3 moving = whiteVector(velocityAt(solid.pose, {path.to.x, path.to.y, path.to.z}));
+    path.velocity -= std::min(glm::dot(path.velocity - moving, normal), 0.0) * normal;
   }
-  return way;
+  return path;
 }
 
 /// Whether no particle can be at x: in a solid, or farther beyond a wall than `slack`.
@@ -243,10 +243,10 @@ std::vector<WhiteParticle> whiteAdvance(std::span<const WhiteParticle> particles
         to.position[wall.axis] = wall.at;
         lives = lives && kind != kWhiteSpray;
       }
-    const WhiteWay way = heldBack(fluid, p.position, to.position, to.velocity, seconds);
-    to.position = way.to;
-    to.velocity = way.velocity;
-    if (way.met) lives = lives && kind != kWhiteSpray && !isBlocked(fluid, desc, way.to, double{kWhiteClearance} * fluid.spacing);
+    const WhitePath path = heldBack(fluid, p.position, to.position, to.velocity, seconds);
+    to.position = path.to;
+    to.velocity = path.velocity;
+    if (path.met) lives = lives && kind != kWhiteSpray && !isBlocked(fluid, desc, path.to, double{kWhiteClearance} * fluid.spacing);
     if (lives) after.push_back(to);
   }
   return after;
@@ -285,9 +285,9 @@ std::vector<WhiteParticle> whiteBirths(const WhiteFluid& fluid, const Whitewater
       for (const WhiteWall& wall : wallsOf(desc))
         if (wall.inward * (p.position[wall.axis] - wall.at) < 0) p.position[wall.axis] = wall.at;
       const dvec3& origin = fluid.positions[order[slot]];
-      const WhiteWay way = heldBack(fluid, origin, p.position, v + double{kWhiteSpread} * speed * inBall(hash, 4), 0);
-      p.position = way.met && isBlocked(fluid, desc, way.to, 0) ? origin : way.to;
-      p.velocity = way.velocity;
+      const WhitePath path = heldBack(fluid, origin, p.position, v + double{kWhiteSpread} * speed * inBall(hash, 4), 0);
+      p.position = path.met && isBlocked(fluid, desc, path.to, 0) ? origin : path.to;
+      p.velocity = path.velocity;
       p.tag = hash << 2 | kind;
       born.push_back(p);
     }

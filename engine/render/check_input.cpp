@@ -97,7 +97,7 @@ Expected<void> checkLook(const FluidLook& look) {
     return outOfRange("FluidLook::refractionIndex", double{look.refractionIndex}, "1 to 10");
   for (const float coefficient : {look.scattering.x, look.scattering.y, look.scattering.z})
     if (!(coefficient >= 0 && coefficient <= 1e6f)) return outOfRange("FluidLook::scattering", double{coefficient}, "0 to 1e6 (1/m)");
-  if (!(std::abs(look.meanCosine) < 1)) return outOfRange("FluidLook::meanCosine", double{look.meanCosine}, "a number between -1 and 1");
+  if (!(std::abs(look.meanCosine) <= 0.99f)) return outOfRange("FluidLook::meanCosine", double{look.meanCosine}, "-0.99 to 0.99");
   if (!(look.aeration >= 0 && look.aeration <= 1)) return outOfRange("FluidLook::aeration", double{look.aeration}, "0 to 1");
   return {};
 }

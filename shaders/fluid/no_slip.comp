@@ -9,7 +9,7 @@ READ_UINT(7, meshWord)
 #include "shared/shape.glsl"
 layout(local_size_x = kFluidGroup) in;
 
-READ_UINT4(2, work)        // the prediction that XSPH is of
+READ_UINT4(2, work)        // the prediction of the substep
 READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)

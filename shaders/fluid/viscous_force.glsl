@@ -25,8 +25,8 @@ void visit(vec4 particle, vec4 companion) {
 #endif
 }
 
-// The velocity of images is as in a mirror; where fluid sticks to walls it is reversed along them instead, for each
-// wall. Either way L stays symmetric.
+// The velocity of images is as in a mirror; where fluid sticks to walls it is reversed along them instead and kept across
+// them, for each wall. In both cases L stays symmetric.
 void reflectSums(vec3 signs) {
   vec3 image = NO_SLIP_WALLS ? signs.x * signs.y * signs.z * signs : signs;
   force *= image;

@@ -130,16 +130,20 @@ float depthBehindSun(vec3 p) {
 
 const float kLeastGlow = 0.001;  // of a white surface in the sky's light; less is not seen
 
-// Sunlight that is scattered once into a ray through the fluid. Between its ends the way of the light is taken to change evenly.
+// Sunlight that is scattered once into a ray through the fluid. Between its ends the length of the light's path is taken to
+// change evenly.
 vec3 scatteredSun(vec3 point, vec3 along, float size) {
-  const float g = look.scattering.w, narrow = 1.0 + g * g - 2.0 * g * dot(worldDirection(along), look.light.xyz);
+  const float g = look.scattering.w, least = 1.0 - abs(g);
+  const float narrow = max(1.0 + g * g - 2.0 * g * dot(worldDirection(along), look.light.xyz), least * least);
   const float phase = (1.0 - g * g) / (12.566371 * narrow * sqrt(narrow));
   const vec3 most = look.scattering.rgb * sunlight() * (3.1415927 * phase * size);
   if (max(most.r, max(most.g, most.b)) < kLeastGlow) return vec3(0.0);
   const float first = depthBehindSun(worldPoint(point)), last = depthBehindSun(worldPoint(point + size * along));
-  const vec3 loss = look.absorption.rgb * (size + last - first);
-  const vec3 mean = mix((1.0 - exp(-loss)) / loss, 1.0 - 0.5 * loss, lessThan(abs(loss), vec3(1e-3)));
-  return most * (1.0 - fresnel(1.0, look.absorption.w)) * exp(-look.absorption.rgb * first) * mean;
+  // The mean of exp(-loss) between both ends; each end by itself, since their difference can be a large number of either sign.
+  const vec3 near = look.absorption.rgb * first, far = look.absorption.rgb * (size + last), rise = far - near;
+  const bvec3 even = lessThan(abs(rise), vec3(1e-3));
+  const vec3 mean = mix((exp(-near) - exp(-far)) / mix(rise, vec3(1.0), even), exp(-near) * (1.0 - 0.5 * rise), even);
+  return most * (1.0 - fresnel(1.0, look.absorption.w)) * mean;
 }
 #endif
 

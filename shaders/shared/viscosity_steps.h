@@ -12,7 +12,6 @@
 #define RILL_STEPS_FUNCTION inline
 namespace rill::shared {
 using std::pow;
-using std::sin;
 using std::sqrt;
 #else
 #define RILL_STEPS_REAL float
@@ -44,7 +43,9 @@ RILL_STEPS_FUNCTION ViscositySteps viscositySteps(RILL_STEPS_REAL bound, RILL_ST
   RILL_STEPS_REAL high = bound > 1.001 ? (bound < 1.0e30 ? bound : 1.0e30) : 1.001;
   for (s.count = 1u;; s.count += 1u) {
     RILL_STEPS_BOOL last = s.count >= maxSteps;
-    RILL_STEPS_REAL n = RILL_STEPS_REAL(s.count), sine = sin(0.785398163397448 / n);
+    RILL_STEPS_REAL n = RILL_STEPS_REAL(s.count), angle = 0.785398163397448 / n, square = angle * angle;
+    // Its series, since GLSL promises few digits of a sine.
+    RILL_STEPS_REAL sine = angle * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
     // The largest root of the polynomial is at cos(pi / 2 n) of the half width, down from the center: it is at 1.
     RILL_STEPS_REAL low = (1.0 - high * sine * sine) / (1.0 - sine * sine), least = 0.5 * high / (n * n);
     RILL_STEPS_BOOL reaches = low > 0.0;

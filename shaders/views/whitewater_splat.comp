@@ -1,6 +1,6 @@
 #version 460
 // Diffuse particles as soft dots: sums of optical depth, in whole numbers, so that their order does not matter. Spray is a dot
-// averaged over its way on the screen while it is exposed: a streak of the same light.
+// averaged over its path on the screen while it is exposed: a streak of the same light.
 #extension GL_GOOGLE_include_directive : require
 #include "render/look_records.h"
 #include "render/surface.glsl"
@@ -33,13 +33,13 @@ struct Streak {
   float slope;         // change of depth a pixel, m
 };
 
-vec3 wayOf(vec3 x, vec3 v) {
+vec3 pathOf(vec3 x, vec3 v) {
   const vec3 turn = vec3(exposure.turnX, exposure.turnY, exposure.turnZ), drift = vec3(exposure.driftX, exposure.driftY, exposure.driftZ);
   return exposure.seconds * (v - drift - cross(turn, x));
 }
 
-Streak streakOf(vec3 x, vec3 way, float radius) {
-  const vec3 center = viewPoint(x), from = viewPoint(x - 0.5 * way), to = viewPoint(x + 0.5 * way);
+Streak streakOf(vec3 x, vec3 path, float radius) {
+  const vec3 center = viewPoint(x), from = viewPoint(x - 0.5 * path), to = viewPoint(x + 0.5 * path);
   const Streak dot_ = Streak(pixelOf(center), vec2(1.0, 0.0), radius, 0.0, 0.0);
   if (min(from.z, to.z) <= nearestDrawn()) return dot_;
   const vec2 a = pixelOf(from), b = pixelOf(to);
@@ -85,7 +85,7 @@ void main() {
   // Dots smaller than a pixel keep their light
   const float wide = kSizes[kind] * exposure.size / metersAPixel(z), radius = clamp(wide, 1.0, kWhiteMaxPixels);
   const float opacity = kOpacities[kind] * min(wide * wide, 1.0);
-  const Streak s = streakOf(x, kind == kWhiteSpray ? wayOf(x, uintBitsToFloat(motion[k].xyz)) : vec3(0.0), radius);
+  const Streak s = streakOf(x, kind == kWhiteSpray ? pathOf(x, uintBitsToFloat(motion[k].xyz)) : vec3(0.0), radius);
   if (!all(lessThan(abs(s.middle), vec2(1e6)))) return;
   // The light of dim streaks is right in the mean of many
   if (s.size > 0.0) rounding = float(motion[k].w >> 8u) * (1.0 / 16777216.0);

@@ -63,16 +63,22 @@ TEST(Record, WarnsAboutDroppedTimeAndLimits) {
   offline::Stats some = stats(0.001, 1, 1);
   some.timeDropped_s = 0.125;
   some.loopBoundHits = 1234;
+  some.viscosityBoundHits = 56;
   some.nonFinite = 1;
   some.pictureBoundHits = 7;
   cut.add(0, stats(0.001, 1, 1));
   cut.add(0.25, some);
   cut.add(0.5, some);
   EXPECT_EQ(figure(cut, "time_dropped_s"), 0.25);
+  EXPECT_EQ(figure(cut, "viscosity_bound_hits"), 56);
   EXPECT_EQ(figure(cut, "simulated_s"), 0.25) << "dropped time is not simulated";
   const std::vector<std::string> warnings = cut.warnings();
-  ASSERT_EQ(warnings.size(), 4u);
-  for (const auto& [k, what] : {std::pair(0, "0.25 s of 0.5 s were dropped: "), {1, "1,234 times"}, {2, "1 particle is"}, {3, "14 times"}})
+  ASSERT_EQ(warnings.size(), 5u);
+  for (const auto& [k, what] : {std::pair(0, "0.25 s of 0.5 s were dropped: "),
+                                {1, "56 substeps viscosity needed more steps"},
+                                {2, "1,234 times"},
+                                {3, "1 particle is"},
+                                {4, "14 times"}})
     EXPECT_NE(warnings[k].find(what), std::string::npos) << warnings[k];
 }
 

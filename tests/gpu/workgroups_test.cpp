@@ -48,7 +48,7 @@ class WorkgroupsTest : public ::testing::Test {
     if (!borrowed) return borrowed.error().message;
     device_ = std::move(*borrowed);
     const auto made =
-        computePipeline(*device_, {.shader = "fluid/copy_velocity", .requiredSubgroupSize = requiredSize, .fullSubgroups = full});
+        computePipeline(*device_, {.shader = "fluid/viscosity_start", .requiredSubgroupSize = requiredSize, .fullSubgroups = full});
     EXPECT_EQ(vulkan.pipelines.size(), made ? 1u : 0u);
     return made ? "" : made.error().message;
   }
@@ -65,7 +65,7 @@ TEST_F(WorkgroupsTest, RejectsFullSubgroupsThatMayBeLargerThanTheWorkgroup) {
   vulkan.properties = {.name = "wide", .subgroupSize = 64, .minSubgroupSize = 64, .maxSubgroupSize = 128};
   EXPECT_EQ(
       make(0, true),
-      "shader 'fluid/copy_velocity': needs full subgroups, but 64, the first of the sizes of its workgroups, is not a multiple of 128, "
+      "shader 'fluid/viscosity_start': needs full subgroups, but 64, the first of the sizes of its workgroups, is not a multiple of 128, "
       "the largest subgroup size of wide");
 }
 
@@ -73,7 +73,7 @@ TEST_F(WorkgroupsTest, RejectsRequiredSizeThatDoesNotDivideTheWorkgroup) {
   vulkan.properties = {.name = "wide", .subgroupSize = 64, .minSubgroupSize = 64, .maxSubgroupSize = 128};
   EXPECT_EQ(
       make(128, true),
-      "shader 'fluid/copy_velocity': needs full subgroups, but 64, the first of the sizes of its workgroups, is not a multiple of 128, "
+      "shader 'fluid/viscosity_start': needs full subgroups, but 64, the first of the sizes of its workgroups, is not a multiple of 128, "
       "the subgroup size that it requires");
 }
 

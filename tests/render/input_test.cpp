@@ -99,6 +99,14 @@ TEST_F(RendererInput, RejectsInvalidEnumsAndLooks) {
   look = {};
   look.refractionIndex = 0.5f;
   EXPECT_EQ(compileError(state(), view, look), "FluidLook::refractionIndex is 0.5; expected 1 to 10");
+  for (const float bad : {-1.0f, 1.1e6f, std::numeric_limits<float>::quiet_NaN()}) {
+    look = {};
+    look.scattering.y = bad;
+    EXPECT_TRUE(compileError(state(), view, look).ends_with("; expected 0 to 1e6 (1/m)")) << bad;
+  }
+  look = {};
+  look.meanCosine = -1;
+  EXPECT_EQ(compileError(state(), view, look), "FluidLook::meanCosine is -1; expected -0.99 to 0.99");
   look = {};
   look.aeration = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(compileError(state(), view, look), "FluidLook::aeration is nan; expected 0 to 1");

@@ -137,6 +137,11 @@ TEST(SceneErrors, RejectsKeysNewerThanTheVersionOfTheScene) {
   EXPECT_EQ(parseError(turning("0.1", turn), {{"rill", "0.2"}}), "accepted");
   EXPECT_EQ(parseError(with(R"("look": {"sky": "day"})")),
             "dam.json: look.sky: the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"");
+  for (const char* seconds : {"-0.1", "1.5"})
+    EXPECT_NE(parseError(R"({"rill": "0.2", "fluid": {"spacing": 0.1}, "look": {"spray_exposure": )" + std::string(seconds) + "}}")
+                  .find("dam.json: look.spray_exposure: " + std::string(seconds) + " is out of range; expected a number from 0 to 1 (s)"),
+              std::string::npos)
+        << seconds;
   EXPECT_EQ(parseError(turning("0.1", "\"translate\": [1, 0, 0]"), {{"solids[0].motion[0].rotate", "[0,0,0,1]"}}),
             "--set solids[0].motion[0].rotate: the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"");
   EXPECT_EQ(

@@ -23,13 +23,13 @@ constexpr double kPlateTime =
 constexpr double kPlateJitter = 0.1;
 
 /// Fluid without weight between a floor and a ceiling, and open sides.
-Scene betweenPlates(double spacing, SideMask open) {
-  Scene scene = boxScene(spacing, {0, 0, 0}, {kPlateLong, kPlateGap, kPlateWide});
+Scene betweenPlates(double spacing, double length, SideMask open) {
+  Scene scene = boxScene(spacing, {0, 0, 0}, {length, kPlateGap, kPlateWide});
   scene.domain->open = static_cast<SideMask>(open | kOpenX | kOpenZ);
   scene.domain->slip = false;
   scene.gravity = {0, 0, 0};
   scene.fluid.viscosity = kPlateViscosity;
-  Fill fill = boxFill({0, 0, 0}, {kPlateLong, kPlateGap, kPlateWide});
+  Fill fill = boxFill({0, 0, 0}, {length, kPlateGap, kPlateWide});
   fill.jitter = kPlateJitter;
   scene.fill.push_back(fill);
   return scene;
@@ -38,7 +38,7 @@ Scene betweenPlates(double spacing, SideMask open) {
 /// A force along the plates, so weak that the fluid moves by less than a spacing: u = g y (H - y) / (2 nu).
 Expected<Outcome> poiseuille(const Bench& bench, double spacing) {
   const double fastest = 0.1 * spacing / kPlateTime, viscosity = kPlateViscosity / 1000;
-  Scene scene = betweenPlates(spacing, 0);
+  Scene scene = betweenPlates(spacing, kPlateLong, 0);
   scene.gravity = {8 * viscosity * fastest / (kPlateGap * kPlateGap), 0, 0};
   Outcome outcome;
   double sum = 0, count = 0, middle = 0, nearMiddle = 0, worst = 0;
@@ -78,30 +78,46 @@ Expected<Outcome> poiseuille(const Bench& bench, double spacing) {
   return outcome;
 }
 
-/// A plate above the fluid moves at constant speed: its load is mu U / H times its area, and the profile is linear.
-Expected<Outcome> towedPlate(const Bench& bench, double spacing) {
+struct Towed {
+  RunFigures run;
+  double force = 0;  ///< on the plate, N
+  double worst = 0;  ///< deviation of a particle in the middle from the linear profile, over the plate's speed
+};
+
+/// A plate of this length (m) above the fluid moves at constant speed (m/s).
+Expected<Towed> tow(const Bench& bench, double spacing, double length, double speed) {
   constexpr double kPlateThick = 0.05;
-  const double speed = 0.1 * spacing / kPlateTime;
-  Scene scene = betweenPlates(spacing, 0b001000);
-  scene.solids.push_back({.shape = BoxShape{{0, kPlateGap, 0}, {kPlateLong, kPlateGap + kPlateThick, kPlateWide}},
+  Scene scene = betweenPlates(spacing, length, 0b001000);
+  scene.solids.push_back({.shape = BoxShape{{0, kPlateGap, 0}, {length, kPlateGap + kPlateThick, kPlateWide}},
                           .slip = false,
                           .motion = {{0, {0, 0, 0}}, {10, {10 * speed, 0, 0}}},
                           .name = "plate"});
   scene.probes.push_back({.name = "load", .load = "plate"});
-  double worst = 0;
+  Towed towed;
   auto run = runSampled(
       bench, scene, kPlateTime, kPlateTime / 8, [](double time) { return time > 0.95 * kPlateTime; },
       [&](const Cloud& cloud, double) {
         for (size_t i = 0; i < cloud.size(); ++i)
-          if (std::abs(cloud.position[i].x - kPlateLong / 2) < kPlateGap / 2)
-            worst = std::max(worst, std::abs(cloud.velocity[i].x / speed - cloud.position[i].y / kPlateGap));
+          if (std::abs(cloud.position[i].x - length / 2) < kPlateGap / 2)
+            towed.worst = std::max(towed.worst, std::abs(cloud.velocity[i].x / speed - cloud.position[i].y / kPlateGap));
       });
   if (!run) return run.error();
+  towed.run = std::move(*run);
+  towed.force = -std::get<offline::LoadValue>(towed.run.instants.back().stats.probes.front().second).force.x;
+  return towed;
+}
+
+/// The load of a plate is mu U / H times its area, but for what the free ends of the fluid take off: the difference of two lengths counts.
+Expected<Outcome> towedPlate(const Bench& bench, double spacing) {
+  const double speed = 0.1 * spacing / kPlateTime;
+  const auto shorter = tow(bench, spacing, kPlateLong - kPlateGap, speed);
+  if (!shorter) return shorter.error();
+  auto longer = tow(bench, spacing, kPlateLong, speed);
+  if (!longer) return longer.error();
   Outcome outcome;
-  outcome.run = std::move(*run);
-  const auto load = std::get<offline::LoadValue>(outcome.run.instants.back().stats.probes.front().second);
-  outcome.figures.push_back(relativeFigure("force", -load.force.x, kPlateViscosity * speed / kPlateGap * kPlateLong * kPlateWide));
-  outcome.figures.push_back(plainFigure("profile, worst particle", worst));
+  outcome.run = std::move(longer->run);
+  outcome.figures.push_back(relativeFigure("force", longer->force - shorter->force, kPlateViscosity * speed * kPlateWide));
+  outcome.figures.push_back(plainFigure("profile, worst particle", longer->worst));
   return outcome;
 }
 
