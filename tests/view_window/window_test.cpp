@@ -151,9 +151,9 @@ TEST_F(ViewWindowTest, NumbersCanBeTypedAndDragged) {
   const struct {
     const char* hands;
     double low, high;
-  } rows[] = {{"5 move 84 405\n5 press left\n5 release left\n5 press left\n5 release left\n14 type 8\n14 key Enter\n20 key L\n30 ", 8, 8},
-              {"5 move 84 405\n5 press Ctrl+left\n5 release left\n10 type 0.25\n10 key Enter\n30 ", 0.25, 0.25},
-              {"5 move 84 405\n5 press left\n7 move 134 405\n9 move 234 405\n11 release left\n30 ", 0.2, 50}};
+  } rows[] = {{"5 move 84 431\n5 press left\n5 release left\n5 press left\n5 release left\n14 type 8\n14 key Enter\n20 key L\n30 ", 8, 8},
+              {"5 move 84 431\n5 press Ctrl+left\n5 release left\n10 type 0.25\n10 key Enter\n30 ", 0.25, 0.25},
+              {"5 move 84 431\n5 press left\n7 move 134 431\n9 move 234 431\n11 release left\n30 ", 0.2, 50}};
   for (const auto& row : rows) {
     std::filesystem::remove(folder / "dam-changed.json");
     folder.write("hands.txt", row.hands + save);

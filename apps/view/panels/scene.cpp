@@ -39,7 +39,6 @@ void scenePanel(Board& board) {
   if (const std::string picked = combo("scene", board.scene, board.scenes); !picked.empty()) requests.open = picked;
   if (const std::string picked = combo("view", board.settings.view, offline::Simulation::views()); !picked.empty())
     board.settings.view = picked;
-  if (board.settings.view == "final") exposureSlider(board.settings.exposure_stops);
 
   if (ImGui::Button(board.settings.paused ? "Continue (P)" : "Pause (P)")) board.settings.paused = !board.settings.paused;
   ImGui::SameLine();
@@ -86,6 +85,9 @@ void scenePanel(Board& board) {
       ImGui::EndCombo();
     }
   }
+  ImGui::BeginDisabled(board.settings.view != "final");
+  exposureSlider(board.settings.exposure_stops);
+  ImGui::EndDisabled();
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("%s", board.device.c_str());
   if (!board.session.scene().about.empty()) ImGui::TextDisabled("%s", board.session.scene().about.c_str());
