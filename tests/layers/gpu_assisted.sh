@@ -12,7 +12,8 @@ case $what in
   scene) set -- "$name" --no-images ;;
   view) set -- box-and-sphere --view "$name" --size 96x64 ;;
 esac
-[ "$name" = empty ] || set -- "$@" --particles 1000
+# Without a fill a number of particles is refused.
+! grep -q '"fill"' "$(dirname "$0")/../../assets/scenes/$1.json" || set -- "$@" --particles 1000
 "$capture" "$@" --frames 2 --out "$folder" --quiet --no-pass-times >"$folder/messages" 2>&1 || {
   cat "$folder/messages" >&2
   exit 1
