@@ -44,10 +44,10 @@ Expected<void> FluidRendererImpl::create(Device& host, const TargetFormats& targ
 }
 
 Expected<void> FluidRendererImpl::makeShade() {
-  constexpr const char* kFragments[3][2] = {{"render/fluid_shade_fragment", "render/fluid_shade_environment_fragment"},
-                                            {"render/fluid_shade_opaque_fragment", "render/fluid_shade_opaque_environment_fragment"},
-                                            {"render/fluid_shade_crests_fragment", "render/fluid_shade_crests_environment_fragment"}};
-  for (size_t k = 0; k < std::size(kFragments); ++k) {
+  constexpr const char* kFragments[kShades][2] = {{"render/fluid_shade_fragment", "render/fluid_shade_environment_fragment"},
+                                                  {"render/fluid_shade_opaque_fragment", "render/fluid_shade_opaque_environment_fragment"},
+                                                  {"render/fluid_shade_crests_fragment", "render/fluid_shade_crests_environment_fragment"}};
+  for (size_t k = 0; k < kShades; ++k) {
     auto drawn = graphicsPipeline(*device->device, {.vertex = "render/fluid_shade_vertex",
                                                     .fragment = kFragments[k][environment != nullptr],
                                                     .colors = {&formats.color, 1},
@@ -100,17 +100,15 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   BufferRef sunward;
   if (lit) {
     sunward = crests.addTo(graph, fluid, values.light, last.particles);
-    values.emission.w = static_cast<float>(CrestDepths::side(fluid.capacity));
+    values.crests.x = static_cast<float>(CrestDepths::side(fluid.capacity));
   }
   const BufferRef record = addLook(graph, values);
   graph.pass("fluid shade", [&](Pass& pass) {
     pass.read(last.arguments, Use::Indirect);
     targets.color = pass.write(targets.color, Use::ColorTarget);
     targets.depth = pass.write(targets.depth, Use::DepthTarget);
-    const Kernel kernel = bindNamed(pass,
-                                    shade[lit           ? 2
-                                          : look.opaque ? 1
-                                                        : 0],
+    const Shade kind = lit ? Shade::Crests : look.opaque ? Shade::Opaque : Shade::Plain;
+    const Kernel kernel = bindNamed(pass, shade[static_cast<size_t>(kind)],
                                     {{"look", record},
                                      {"tiles", last.tiles},
                                      {"surface", last.pixels},

@@ -36,7 +36,10 @@ class FluidRendererImpl {
   SurfaceBuffers last;  ///< of the frame being declared
   const ComputePipeline *scene = nullptr, *data[3] = {};
   CrestDepths crests;
-  const GraphicsPipeline* shade[3] = {};  ///< plain, of an opaque fluid, and with light through crests
+  /// Plain, of an opaque fluid, and with light through crests.
+  enum class Shade { Plain, Opaque, Crests };
+  static constexpr size_t kShades = 3;
+  const GraphicsPipeline* shade[kShades] = {};  ///< by Shade
 
  private:
   Expected<void> makeShade();

@@ -19,24 +19,18 @@ layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 
 vec3 here;
 vec4 own;
+uint head;
 vec3 rise = vec3(0.0);
 
 void visit(vec4 particle, vec4 companion) {
   vec3 r = here - particle.xyz;
   rise += (companion.w - own.w) * gradientShape(sqrt(dot(r, r))) * r;
 }
-#include "fluid/neighbors.glsl"
+#include "fluid/gather.glsl"
 
 void main() {
-  uint local = clusterInvocation();
-  uint i = push.first + local;
-  bool inRange = i < min(push.last, control.solved);
-  if (!inRange) i = params.capacity;
-  here = particleAt(i).xyz;
-  own = curlAt(i);
-  uint head = headOf(i, inRange);
-  visitNeighbors(i, head, local, inRange);
-  if (!inRange || sleeps(head)) return;
+  uint i;
+  if (!gather(i) || sleeps(head)) return;
   rise *= params.gradientScale;
   // Below a thousandth of the spin a smoothing length its change is noise.
   vec3 direction = rise / (length(rise) + 0.001 * own.w * params.inverseSupport + 1.0e-20);

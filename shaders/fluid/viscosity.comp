@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(8, velocity)
 layout(std430, binding = 9) writeonly buffer ResidualBlock { vec4 residual[]; };
 layout(std430, binding = 10) readonly buffer HoldBlock { vec4 hold[]; };
-#define VISCOUS_AT(j) velocityAt(j)
+#define COMPANION(j) velocityAt(j)
 #define BOUNDS
 #include "fluid/viscous_force.glsl"
 
@@ -23,5 +23,5 @@ void main() {
   if (inRange) held = HOLD_AT(i);
   float most = subgroupMax(eigenvalueBound() + held.w);
   if (subgroupElect()) atomicMax(sums.viscosityBound, floatBitsToUint(most));
-  if (inRange) residual[i] = vec4(sleeps(head) ? vec3(0.0) : force + held.xyz - held.w * own, 0.0);
+  if (inRange) residual[i] = vec4(sleeps(head) ? vec3(0.0) : force + held.xyz - held.w * own.xyz, 0.0);
 }

@@ -14,7 +14,7 @@ layout(std430, binding = 9) buffer ResidualBlock { vec4 residual[]; };
 layout(std430, binding = 10) writeonly buffer DirectionToBlock { vec4 directionTo[]; };
 layout(std430, binding = 11) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 12) readonly buffer HoldBlock { vec4 hold[]; };
-#define VISCOUS_AT(j) directionFromAt(j)
+#define COMPANION(j) directionFromAt(j)
 #include "fluid/viscous_force.glsl"
 
 void main() {
@@ -22,7 +22,7 @@ void main() {
   if (k >= sums.viscositySteps) return;
   uint i;
   if (!gatherForce(i)) return;
-  vec3 d = directionFromAt(i).xyz, r = residual[i].xyz - (1.0 + HOLD_AT(i).w) * d + force;
+  vec3 d = own.xyz, r = residual[i].xyz - (1.0 + HOLD_AT(i).w) * d + force;
   float ratio = chebyshevRatio(sums.viscosityDecay, k);
   d = ratio * (chebyshevRatio(sums.viscosityDecay, k - 1u) * d + 2.0 / sums.viscosityHalfWidth * r);
   residual[i].xyz = r;

@@ -1,14 +1,13 @@
 // dt L of viscosity, negative: c sum_j (1-q)^3 q q^T (v_j - v_i), q from j to i over the support. The force of a pair is along its line and
 // proportional to the speed along it: it keeps angular momentum. The pairs are those of the density pass: gathers from `work`.
-// Include it after `push` is declared, with VISCOUS_AT(j) the velocity of j. BOUNDS: also bounds the eigenvalues of 1 + dt L.
+// Include it after `push` is declared, with COMPANION(j) the velocity of j. BOUNDS: also bounds the eigenvalues of 1 + dt L.
 #ifndef RILL_FLUID_VISCOUS_FORCE_GLSL
 #define RILL_FLUID_VISCOUS_FORCE_GLSL
 #include "fluid/cluster.glsl"
 
-#define COMPANION(j) VISCOUS_AT(j)
-
 float inverseSupport = params.inverseSupport;  // loaded once, see kernel.glsl
-vec3 here, own;
+vec3 here;
+vec4 own;
 uint head;
 vec3 force = vec3(0.0);
 #ifdef BOUNDS
@@ -18,7 +17,7 @@ vec3 diagonal = vec3(0.0), mixed = vec3(0.0);  // of sum_j (1-q)^3 q q^T; mixed:
 void visit(vec4 particle, vec4 companion) {
   vec3 q = (here - particle.xyz) * inverseSupport;
   float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = t * t * t;
-  force += weight * dot(q, companion.xyz - own) * q;
+  force += weight * dot(q, companion.xyz - own.xyz) * q;
 #ifdef BOUNDS
   diagonal += weight * q * q;
   mixed += weight * q.yzx * q.zxy;
@@ -30,25 +29,17 @@ void visit(vec4 particle, vec4 companion) {
 void reflectSums(vec3 signs) {
   vec3 image = NO_SLIP_WALLS ? signs.x * signs.y * signs.z * signs : signs;
   force *= image;
-  own *= image;
+  own.xyz *= image;
 #ifdef BOUNDS
   mixed *= signs.yzx * signs.zxy;
 #endif
 }
 #define IMAGES
-#include "fluid/neighbors.glsl"
+#include "fluid/gather.glsl"
 
 // Gathers `force` of the invocation's particle i; false where it has none. 0 for one that sleeps.
 bool gatherForce(out uint i) {
-  uint local = clusterInvocation();
-  i = push.first + local;
-  bool inRange = i < min(push.last, control.solved);
-  if (!inRange) i = params.capacity;
-  here = particleAt(i).xyz;
-  own = VISCOUS_AT(i).xyz;
-  head = headOf(i, inRange);
-  bool moves = inRange && !sleeps(head);
-  visitNeighbors(i, moves ? head : 0u, local, moves);
+  bool inRange = gather(i);
   force *= params.viscosityRate * control.step;
   return inRange;
 }

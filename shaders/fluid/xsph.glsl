@@ -11,6 +11,7 @@
 
 vec3 here;
 vec4 own;
+uint head;
 vec3 difference = vec3(0.0);  // over params.valueScale until it is gathered
 
 void visit(vec4 particle, vec4 companion) {
@@ -22,19 +23,11 @@ void reflectSums(vec3 signs) {
   own.xyz *= signs;
 }
 #define IMAGES
-#include "fluid/neighbors.glsl"
+#include "fluid/gather.glsl"
 
 // Gathers `own` and `difference` of the invocation's particle i; false where it has none. A difference of 0 for one that sleeps.
 bool gatherDifference(out uint i) {
-  uint local = clusterInvocation();
-  i = push.first + local;
-  bool inRange = i < min(push.last, control.solved);
-  if (!inRange) i = params.capacity;
-  here = particleAt(i).xyz;
-  own = sweepFromAt(i);
-  uint head = headOf(i, inRange);
-  bool moves = inRange && !sleeps(head);
-  visitNeighbors(i, moves ? head : 0u, local, moves);
+  bool inRange = gather(i);
   difference *= params.valueScale;
   return inRange;
 }

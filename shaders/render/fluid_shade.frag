@@ -122,7 +122,7 @@ float depthBehindSun(vec3 p) {
   float sum = 0.0;
   for (int k = 0; k < 4; ++k) {
     const ivec2 corner = ivec2(k & 1, k >> 1);
-    const vec2 height = heights[crestIndex(base + corner, uint(look.emission.w))], share = mix(1.0 - part, part, vec2(corner));
+    const vec2 height = heights[crestIndex(base + corner, uint(look.crests.x))], share = mix(1.0 - part, part, vec2(corner));
     sum += share.x * share.y * clamp(height.x - own, 0.0, height.y);
   }
   return sum;

@@ -20,9 +20,10 @@ struct LookRecord {
   vec4 finish;
   vec4 above;       // irradiance of the environment from above, over pi; w: width in texels, 0: no environment
   vec4 below;       // the same from below; w: height
-  vec4 emission;    // radiance of thick fluid of its own; w: cells of the grid across the sun's rays a side
+  vec4 emission;    // radiance of thick fluid of its own
   vec4 sunlight;    // of an environment: radiance of a white surface that faces the sun; w: radius of its disc in rad, 0: none
   vec4 scattering;  // 1/m, of the sun's light in the fluid; w: mean cosine
+  vec4 crests;      // x: cells a side of the grid across the sun's rays
 };
 
 #ifdef __cplusplus
