@@ -1,4 +1,4 @@
-// Caustics in whole pictures.
+// Sunlight through the fluid in whole pictures: caustics, and crests that shine.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -13,10 +13,10 @@ struct Wanted {
   std::string sky = "day", look = {}, fill = R"({"box": {"min": [0, 0, 0], "max": [0.6, 0.3, 0.6]}})", more = {}, open = {};
 };
 
-/// A picture, and how many passes of caustics drew it.
+/// A picture, and how many passes of caustics and of crests drew it.
 struct Seen {
   std::vector<uint8_t> pixels;
-  size_t passes = 0;
+  size_t passes = 0, crests = 0;
 };
 
 Seen seen(const Wanted& wanted) {
@@ -38,8 +38,10 @@ Seen seen(const Wanted& wanted) {
   EXPECT_TRUE(messages.empty()) << messages[0];
   const auto stats = run->stats();
   EXPECT_TRUE(stats);
-  for (const PassTime& pass : stats->passes)
-    if (pass.name.starts_with("caustics")) ++out.passes;
+  for (const PassTime& pass : stats->passes) {
+    out.passes += pass.name.starts_with("caustics");
+    out.crests += pass.name.starts_with("fluid crest");
+  }
   return out;
 }
 
@@ -48,6 +50,11 @@ TEST(CausticsRun, NothingOfThemExistsWithoutTheKey) {
   EXPECT_EQ(plain.passes, 0u);
   EXPECT_GT(refracted.passes, 6u);
   EXPECT_NE(plain.pixels, refracted.pixels);
+}
+
+TEST(CrestsRun, NothingOfThemExistsInFluidThatDoesNotScatter) {
+  for (const char* clear : {"", R"(, "preset": "pool")", R"(, "preset": "clay")"}) EXPECT_EQ(seen({.look = clear}).crests, 0u) << clear;
+  for (const char* sky : {"day", "studio"}) EXPECT_EQ(seen({.sky = sky, .look = R"(, "preset": "river")"}).crests, 3u) << sky;
 }
 
 TEST(CausticsRun, FallOnSolids) {
