@@ -194,9 +194,12 @@ TEST_F(ViewWindowTest, CyclesThroughScenes) {
 }
 
 TEST_F(ViewWindowTest, OpensEveryScene) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes"))
+    scenes += entry.path().extension() == ".json" && entry.path().filename() != "scene.schema.json" ? 1 : 0;
   std::string script;
-  for (int k = 0; k < 19; ++k) script += std::to_string(2 * k + 1) + " key ]\n";
-  folder.write("hands.txt", script + "40 view particles\n");
+  for (int k = 0; k < scenes; ++k) script += std::to_string(2 * k + 1) + " key ]\n";
+  folder.write("hands.txt", script + std::to_string(2 * scenes + 2) + " view particles\n");
   const Outcome outcome = view({"box-and-sphere", "--view", "particles", "--size", "320x200", "--script", "hands.txt", "--validate"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
