@@ -28,6 +28,7 @@ struct ParticleSet {
   double spacing = 0;                   ///< m, of the particles at rest, as fluid.spacing if the scene has it; 0: that of the scene
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s
+  std::vector<uint8_t> fluids = {};     ///< index of each particle's fluid among resolvedFluids(); empty: all 0
   uint64_t leftOutOverlap = 0;          ///< closer than 0.9 spacings to a particle of an earlier fill
   uint64_t leftOutSolid = 0;            ///< number left out inside solids
   uint64_t leftOutDomain = 0;           ///< number left out beyond walls

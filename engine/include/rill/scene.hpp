@@ -67,7 +67,7 @@ enum class NeighborChoice : uint8_t {
   Grid   ///< search the grid in every pass
 };
 
-/// Material and resolution of the fluid. Give either `spacing` or `particles`.
+/// Material and resolution of the fluid, or what all fluids of a scene with several share. Give either `spacing` or `particles`.
 struct FluidSettings {
   double spacing = 0;            ///< distance of particles at rest, m, > 0; 0 if `particles` is given
   uint64_t particles = 0;        ///< approximate number of particles; 0 if `spacing` is given
@@ -81,6 +81,14 @@ struct FluidSettings {
   double tensile_power = 16;     ///< exponent n of s_corr, 1 .. 16
   /// Particles at a time, at most; 0: those at the start, and what the emitters add in the scene's duration.
   uint64_t capacity = 0;
+};
+
+/// One of several fluids. All have the same spacing, so that the mass of their particles follows from their densities.
+struct FluidMaterial {
+  std::string name = {};                 ///< unique among fluids, not empty
+  std::optional<double> density = {};    ///< rest density, kg/m^3, > 0; empty: that of FluidSettings
+  std::optional<double> viscosity = {};  ///< dynamic viscosity, Pa s, >= 0; empty: that of FluidSettings
+  std::optional<Double3> color = {};     ///< of the light that 10 cm of it let through, linear RGB, 0 .. 1; empty: that of the look
 };
 
 /// Accuracy and cost of the solver. Empty optionals mean "auto".
@@ -136,6 +144,7 @@ struct Fill {
   Quaternion rotation = {0, 0, 0, 1};  ///< of a mesh about its origin: unit quaternion x y z w
   Double3 velocity = {0, 0, 0};        ///< initial velocity, m/s; added to that of a file
   double jitter = 0;                   ///< largest random offset along each axis, fraction of the spacing, 0 .. 0.5
+  std::string fluid = {};              ///< name of one of Scene::fluids; empty: the first, or that of a file's particles
 };
 
 /// Displacement of a solid or a mouth at a time, relative to its initial pose.
@@ -198,6 +207,7 @@ struct Emitter {
   Mouth mouth = {};
   double flow = 0;                    ///< m^3/s, > 0; 0 if `speed` is given
   double speed = 0;                   ///< m/s, > 0: flow over the area of the mouth; 0 if `flow` is given
+  std::string fluid = {};             ///< name of one of Scene::fluids; empty: the first
   double from = 0;                    ///< s, >= 0
   std::optional<double> until = {};   ///< s, later than `from`; empty: for ever
   std::vector<Keyframe> motion = {};  ///< of the mouth, about its center; fluid leaves with the mouth's velocity in addition to its own
@@ -257,6 +267,7 @@ struct Scene {
   std::vector<GravityChange> gravity_changes = {};
   std::optional<Domain> domain = {};  ///< empty: unbounded space
   FluidSettings fluid = {};
+  std::vector<FluidMaterial> fluids = {};  ///< empty: one fluid, of the material of `fluid`; at most kMaxFluids
   SolverSettings solver = {};
   std::vector<Fill> fill = {};
   std::vector<Solid> solids = {};
@@ -266,6 +277,23 @@ struct Scene {
   std::optional<Camera> camera = {};  ///< empty: frames the domain or the fluid
   Look look = {};
 };
+
+/// The largest number of fluids in a scene.
+inline constexpr size_t kMaxFluids = 8;
+
+/// A fluid of a scene, with nothing left to default.
+struct ResolvedFluid {
+  std::string name = "fluid";
+  double density = 1000;              ///< kg/m^3
+  double viscosity = 0;               ///< Pa s
+  std::optional<Double3> color = {};  ///< as FluidMaterial::color
+};
+
+/// The fluids of a scene, at least one: its fluids, or one named "fluid" of the material of `fluid`.
+RILL_API std::vector<ResolvedFluid> resolvedFluids(const Scene& scene);
+
+/// The index of a fluid by its name; 0 for an empty name. kMaxFluids: none has it.
+RILL_API size_t fluidIndex(const Scene& scene, const std::string& name);
 
 /// The number of solids that are rigid bodies.
 inline size_t bodyCount(const Scene& scene) {

@@ -1,0 +1,25 @@
+#include <algorithm>
+
+#include "rill/scene.hpp"
+
+namespace rill {
+
+std::vector<ResolvedFluid> resolvedFluids(const Scene& scene) {
+  const ResolvedFluid common{.density = scene.fluid.density, .viscosity = scene.fluid.viscosity};
+  if (scene.fluids.empty()) return {common};
+  std::vector<ResolvedFluid> fluids;
+  for (const FluidMaterial& material : scene.fluids)
+    fluids.push_back({.name = material.name,
+                      .density = material.density.value_or(common.density),
+                      .viscosity = material.viscosity.value_or(common.viscosity),
+                      .color = material.color});
+  return fluids;
+}
+
+size_t fluidIndex(const Scene& scene, const std::string& name) {
+  if (name.empty()) return 0;
+  const auto found = std::ranges::find(scene.fluids, name, &FluidMaterial::name);
+  return found == scene.fluids.end() ? kMaxFluids : static_cast<size_t>(found - scene.fluids.begin());
+}
+
+}  // namespace rill
