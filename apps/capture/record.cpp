@@ -72,9 +72,17 @@ offline::ProbeValue noValue(const Probe& probe) {
   return kNone;
 }
 
-Json jsonOf(const FluidLedger& l, uint64_t active) {
-  return {{"name", "fluid"},      {"particles", active}, {"filled", l.filled},    {"emitted", l.emitted},
-          {"drained", l.drained}, {"left", l.left},      {"inactive", l.inactive}};
+Json jsonOf(const std::string& name, const FluidFigures& f) {
+  const FluidLedger& l = f.ledger;
+  return {{"name", name},
+          {"particles", f.particles},
+          {"filled", l.filled},
+          {"emitted", l.emitted},
+          {"drained", l.drained},
+          {"left", l.left},
+          {"inactive", l.inactive},
+          {"density_error_mean", f.densityErrorMean},
+          {"density_error_max", f.densityErrorMax}};
 }
 
 Json jsonOf(const WhitewaterStats& w) {
@@ -116,8 +124,9 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   if (stats.whitewater) frame["whitewater"] = jsonOf(*stats.whitewater);
   frame["state_hash"] = hexadecimal(stats.stateHash);
   frame["probes"] = probes;
-  const bool flows = hasEmitters(scene) || !scene.drains.empty() || hasRemovingSides(scene);
-  frame["fluids"] = Json::array({jsonOf(stats.ledger, flows ? stats.particles : stats.particles - stats.ledger.inactive)});
+  Json& fluids = frame["fluids"] = Json::array();
+  for (size_t k = 0; const ResolvedFluid& fluid : resolvedFluids(scene))
+    if (k < stats.fluids.size()) fluids.push_back(jsonOf(fluid.name, stats.fluids[k++]));
   if (hasEmitters(scene)) frame["emitter_blocked_s"] = stats.emitterBlocked_s;
   if (stats.bodies)
     frame["bodies"] = {{"kinetic_J", stats.bodies->kinetic_J},

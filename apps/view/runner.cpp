@@ -303,19 +303,24 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
 
   ParticleSet start = *start_;
   std::vector<Float3> positions;
+  std::vector<uint8_t> fluids;
   const double apart = 0.9 * scene_.fluid.spacing;
-  for (const Float3& p : more->positions) {
+  for (size_t i = 0; i < more->positions.size(); ++i) {
+    const Float3& p = more->positions[i];
     const Float3 x{static_cast<float>(p.x + more->origin[0] - start.origin[0]), static_cast<float>(p.y + more->origin[1] - start.origin[1]),
                    static_cast<float>(p.z + more->origin[2] - start.origin[2])};
     const bool free = std::ranges::none_of(
         now->position, [&](const Float3& other) { return std::hypot(other.x - x.x, other.y - x.y, other.z - x.z) < apart; });
-    if (free) positions.push_back(x);
+    if (!free) continue;
+    positions.push_back(x);
+    if (!more->fluids.empty()) fluids.push_back(more->fluids[i]);
   }
   if (4 * positions.size() < more->positions.size()) return Error{ErrorKind::BadInput, "There is no room for more fluid there"};
   const std::vector<Float3> velocities(positions.size(), more->velocities.front());
   start.positions.insert(start.positions.end(), positions.begin(), positions.end());
   start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());
-  if (hasState(*now)) append(*now, positions, velocities);
+  start.fluids.insert(start.fluids.end(), fluids.begin(), fluids.end());
+  if (hasState(*now)) append(*now, positions, velocities, fluids);
   if (auto done = continueFrom(scene_, std::make_shared<const ParticleSet>(std::move(start)), std::move(*now)); !done) return done.error();
   return positions.size();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fluid/fluids.hpp"
 #include "shape/contact_points.hpp"
 #include "shared/region_records.h"
 #include "sort/dispatches.hpp"
@@ -110,6 +111,8 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {OrderedPosition, "orderedPosition", "ordered positions", Section, kVector, perParticle},
       {Histogram, "histogram", "error histogram", Section, kWord, [](const ArrayShape&) { return uint64_t{3 * kMeasureBins}; }},
       {Partials, "partials", "partial sums", Section, sizeof(MeasurePartial), [](const ArrayShape&) { return uint64_t{kMeasurePartials}; }},
+      {FluidFigures, "fluidFigures", "figures of fluids", Section, sizeof(FluidFigureRecord),
+       [](const ArrayShape& s) { return s.fluids > 1 ? uint64_t{kMaxFluids} : 0; }},
       {Figures, "figures", "figures", Section, sizeof(MeasureResult), one},
 
       {Particle, "particle"},
@@ -141,6 +144,7 @@ ArrayShape arrayShape(const FluidSetup& setup) {
   return {.particles = p.capacity,
           .listEntries = divideUp(p.capacity, kListBlock) * kListBlock * p.listCapacity,
           .cellStarts = paddedWords(keyRange(setup) + 1),
+          .fluids = setup.fluids,
           .gravityChanges = setup.gravity.size() / 4,
           .tableEntries = setup.tables.size() / 4,
           .solids = p.solidCount,
@@ -172,6 +176,7 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
   return {.particles = particles,
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
           .cellStarts = (scene.solver.sleep ? 2 : 1) * cells + 1 + uint64_t{removes(scene)},
+          .fluids = std::max<uint64_t>(scene.fluids.size(), 1),
           .solids = scene.solids.size(),
           .bodies = bodyCount(scene),
           .contactPoints = kMaxContactPoints * bodyCount(scene),
@@ -180,7 +185,7 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .lists = lists,
           .warm = startsWarm(scene),
           .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,
-          .viscous = scene.fluid.viscosity > 0,
+          .viscous = largestViscosity(scene) > 0,
           .vorticity = scene.fluid.vorticity > 0,
           .loads = !scene.solids.empty(),  // a host may ask for them
           .noSlipSolids = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid); }),

@@ -77,6 +77,7 @@ enum class FluidArray : uint8_t {
   OrderedPosition,
   Histogram,
   Partials,
+  FluidFigures,
   Figures,
   // Names under which shaders see one of the above, or a result of the sort: see FluidImpl::alias().
   Particle,
@@ -99,7 +100,7 @@ struct ArrayShape {
   uint64_t particles = 0;    ///< at most
   uint64_t listEntries = 0;  ///< of all particles
   uint64_t cellStarts = 0;   ///< entries
-  uint64_t gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
+  uint64_t fluids = 1, gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
            mouthPoints = 0, drains = 0, regions = 0, meshWords = 0, keyframes = 0;
   bool lists = true, warm = false, multipliers = false, smooths = false, viscous = false, vorticity = false, loads = false,
        noSlipSolids = false, noSlipBodies = false, removes = false;

@@ -118,6 +118,31 @@ FluidLedger FluidImpl::ledgerOf(uint32_t particles, uint32_t inactive) const {
           .outOfIds = ledger.outOfIds != 0};
 }
 
+std::vector<FluidFigures> FluidImpl::figuresOfFluids(std::span<const std::byte> measured, const FluidStats& all) const {
+  if (setup.fluids == 1)
+    return {{.particles = setup.removes ? all.particles : all.particles - all.ledger.inactive,
+             .ledger = all.ledger,
+             .densityErrorMean = all.densityErrorMean,
+             .densityErrorMax = all.densityErrorMax}};
+  std::vector<FluidFigures> fluids(setup.fluids);
+  for (size_t k = 0; k < fluids.size(); ++k) {
+    FluidFigureRecord r{};
+    if (!read(measured.subspan(std::min(k * sizeof r, measured.size())), r)) continue;
+    fluids[k] = {.particles = r.particles,
+                 .ledger = ledgerOf(r.particles + r.inactive, r.inactive),
+                 .densityErrorMean = (r.errorHigh * 4294967296.0 + r.errorLow) * kErrorUnit / std::max(r.particles, 1u),
+                 .densityErrorMax = std::bit_cast<float>(r.errorMax)};
+    if (!setup.removes) continue;
+    FluidLedger& own = fluids[k].ledger;
+    own.filled = ledger.filledOf[k], own.inactive = ledger.inactiveOf[k];
+    own.drained = ledger.drainedOf[k], own.left = ledger.leftOf[k];
+    own.emitted = 0;
+    for (size_t e = 0; e < emitted.size(); ++e)
+      if (setup.emitters[e].fluid == k) own.emitted += emitted[e].particles;
+  }
+  return fluids;
+}
+
 void FluidImpl::poll() const {
   while (!pending_.empty()) {
     FluidControl control{};
@@ -168,13 +193,14 @@ void FluidImpl::poll() const {
       s.densityErrorMax = m.compressionMax;
       s.densitySignedMedian = result.signedMedian;
       s.kinetic_J = 0.5 * mass * m.kinetic;
-      const Double3 sum = {m.positionX + n * origin[0], m.positionY + n * origin[1], m.positionZ + n * origin[2]};
+      const double masses = m.mass > 0 ? m.mass : 1;
+      const Double3 sum = {m.positionX + masses * origin[0], m.positionY + masses * origin[1], m.positionZ + masses * origin[2]};
       const Double3 gravity = {control.gravityX, control.gravityY, control.gravityZ};
       const Double3 velocity = {m.velocityX, m.velocityY, m.velocityZ};
       for (int a = 0; a < 3; ++a) {
         s.potential_J -= mass * gravity[a] * sum[a];
         s.momentum[a] = mass * velocity[a];
-        s.centerOfMass[a] = sum[a] / n;
+        s.centerOfMass[a] = sum[a] / masses;
       }
       if (setup.params.sleeps != 0) s.sleeping = control.sleep != kAwake ? control.count : sums.asleep;
       if (!bodyRecords.empty()) s.bodies = figuresOf(bodyRecords, origin, gravity);
@@ -182,6 +208,8 @@ void FluidImpl::poll() const {
       s.nonFinite = sums.nonFinite;
       s.outside = setup.removes ? m.outside - m.inactive : m.outside;  // inactive ones are about to be removed
       s.ledger = ledgerOf(control.count, m.inactive);
+      const auto fluids = setup.fluids > 1 ? pending.graph.lock()->data(pending.fluidFigures) : std::span<const std::byte>();
+      s.fluids = figuresOfFluids(fluids, s);
       s.emitterBlocked_s = double{ledger.blockedHigh} + ledger.blockedLow;
       s.neighborOverflow = sums.overflow;
       s.loopBoundHits = sums.boundHits;

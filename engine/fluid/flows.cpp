@@ -161,6 +161,7 @@ Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& s
     r.points = static_cast<uint32_t>(lattice.points.size());
     r.isDisc = std::holds_alternative<DiscMouth>(emitter.mouth) ? 1 : 0;
     r.phase = kHalfLayer;
+    r.fluid = static_cast<uint32_t>(fluidIndex(scene, emitter.fluid));
     addMotion(emitter, r, setup.keyframes);
     setup.mouthPoints.insert(setup.mouthPoints.end(), lattice.points.begin(), lattice.points.end());
     setup.emitters.push_back(r);

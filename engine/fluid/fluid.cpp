@@ -29,6 +29,13 @@ Expected<void> checkGiven(const FluidDesc& desc) {
   const size_t n = desc.particles->positions.size(), velocities = desc.particles->velocities.size();
   if (velocities != n)
     return bad("a fluid needs as many velocities as positions: " + std::to_string(velocities) + " for " + std::to_string(n));
+  const std::vector<uint8_t>& fluids = desc.particles->fluids;
+  if (!fluids.empty() && fluids.size() != n)
+    return bad("ParticleSet::fluids has " + std::to_string(fluids.size()) + " entries; expected none or one for each of " +
+               std::to_string(n) + " positions");
+  if (const size_t count = resolvedFluids(*desc.scene).size(); !fluids.empty() && *std::ranges::max_element(fluids) >= count)
+    return bad("ParticleSet::fluids has index " + std::to_string(*std::ranges::max_element(fluids)) + "; expected one below " +
+               std::to_string(count) + ", the number of the scene's fluids");
   for (const double v : desc.particles->origin)
     if (!(std::abs(v) <= std::numeric_limits<float>::max()))
       return bad("ParticleSet::origin is " + shortestNumber(v) + "; expected numbers (m) that a 32-bit float can hold");

@@ -59,6 +59,7 @@ class FluidImpl {
   FluidState present(Graph& graph) const;
   void poll() const;
   std::vector<FluidPassRuns> passRuns() const;
+  std::vector<FluidFigures> figuresOfFluids(std::span<const std::byte> measured, const FluidStats& all) const;
   FluidLedger ledgerOf(uint32_t particles, uint32_t inactive) const;  ///< of a scene in which none come or go: those there are
   void takeBodies(std::span<const std::byte> records) const;          ///< BodyRecords
   void takePressures(std::span<const std::byte> records) const;       ///< PressureProbeRecords
@@ -97,7 +98,8 @@ class FluidImpl {
 
   struct Pending {
     std::weak_ptr<GraphImpl> graph = {};
-    Ticket control = {}, sums = {}, measure = {}, loads = {}, bodies = {}, pressures = {}, flow = {}, emitters = {}, drains = {};
+    Ticket control = {}, sums = {}, measure = {}, fluidFigures = {}, loads = {}, bodies = {}, pressures = {}, flow = {}, emitters = {},
+           drains = {};
     bool measured = false;
     bool uploads = false;  ///< the start state has been copied once this frame has finished
     Recorded recorded = {};
@@ -124,7 +126,7 @@ class FluidImpl {
   void stageSnapshot(const FluidSnapshot& snapshot);
   void stageFlows();
   void resumeFlows(const FluidSnapshot& snapshot);
-  void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities);
+  void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities, std::vector<uint8_t> fluids);
   // host_input.cpp
   void declareUpload(Graph& graph);
   void declareDrive(Graph& graph, const FluidStep& step);

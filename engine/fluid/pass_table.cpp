@@ -27,6 +27,7 @@ bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
 bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
 bool loadsAsleep(const FluidSetup& s) { return sleeps(s) && (loads(s) || probesPressure(s)); }
+bool several(const FluidSetup& s) { return s.fluids > 1; }
 bool separate(const FluidSetup& s) { return !s.mergesPasses; }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
 bool forcesOrDampingAtSolids(const FluidSetup& s) { return forcesOrDamping(s) && solids(s); }
@@ -37,7 +38,7 @@ constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
     kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"},
     kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep},
-    kRegions{regions, nullptr, &FluidSetup::whyNoRegions};
+    kRegions{regions, nullptr, &FluidSetup::whyNoRegions}, kFluids{several, "one fluid"};
 
 using P = FluidPass;
 using E = Extent;
@@ -107,6 +108,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::MeasureKeys, "measure keys", "fluid/keys", E::Keys, kFigures},
     {P::MeasureOrder, "measure order", "fluid/measure_order", E::Particles, kFigures},
     {P::Measure, "measure", "fluid/measure", E::Particles, kFigures, kAlways, kClusters},
+    {P::MeasureFluids, "measure fluids", "fluid/measure_fluids", E::Particles, kFigures, kFluids},
     {P::MeasureSums, "measure sums", "fluid/measure_sums", E::Partials},
     {P::Reduce, "reduce", "fluid/measure_reduce"},
 }};

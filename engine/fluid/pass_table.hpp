@@ -72,6 +72,7 @@ enum class FluidPass : uint8_t {
   MeasureKeys,
   MeasureOrder,
   Measure,
+  MeasureFluids,
   MeasureSums,
   Reduce,
   kCount

@@ -49,6 +49,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"OUTFLOW", setup.params.outflowLevel < kNoWall},
           {"FORCES", hasForces(setup)},
           {"REGIONS", p.regionsX != 0},
+          {"FLUIDS", setup.fluids > 1},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},
           {"THIN", setup.thin},

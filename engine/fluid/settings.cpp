@@ -8,6 +8,7 @@
 #include "core/words.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/flows.hpp"
+#include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/sleep.hpp"
 #include "fluid/stability_limits.hpp"
@@ -55,7 +56,7 @@ uint32_t substepsPerBlock(const SolverSettings& solver) {
 
 // XSPH coefficient a second that a dynamic viscosity (Pa s) asks for.
 double xsphRate(double viscosity, const Scene& scene, const SmoothingKernel& kernel) {
-  return 2 * viscosity / (scene.fluid.density * kernel.secondMoment());
+  return 2 * viscosity / (densestFluid(scene) * kernel.secondMoment());
 }
 
 // `why` asks for substeps of at most `longest` seconds.
@@ -69,15 +70,16 @@ void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
 
 void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   constexpr double kMaxViscosityRate = 1e20;  // 1/s; in a step far more than the solve takes, and its squares are floats
-  setup.params.viscosityRate = f(std::min(viscosityRate(scene.fluid.viscosity, scene.fluid.density, kernel), kMaxViscosityRate));
+  setup.params.viscosityRate = f(std::min(viscosityRate(largestViscosity(scene), densestFluid(scene), kernel), kMaxViscosityRate));
 }
 
 // As many steps as the longest substep asks for where the fluid is somewhat denser than its rest lattice.
 void setViscositySteps(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   constexpr uint32_t kMaxSteps = 64;
   constexpr double kCrowded = 1.5;
-  if (scene.fluid.viscosity <= 0) return;
-  const double bound = 1 + kCrowded * (latticeBound(setup.params.viscosityRate * setup.longestStep, kernel) - 1);
+  if (largestViscosity(scene) <= 0) return;
+  const double rate = setup.params.viscosityRate * fastestViscosity(scene);
+  const double bound = 1 + kCrowded * (latticeBound(rate * setup.longestStep, kernel) - 1);
   setup.params.viscositySteps = shared::viscositySteps(bound, kMaxSteps).count;
 }
 
@@ -93,13 +95,13 @@ void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSet
 // Nothing of it exists where it has no effect.
 void setNoSlip(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
   const bool walls = hasWalls(scene) && !scene.domain->slip;
-  setup.noSlipWalls = walls && scene.fluid.viscosity > 0;
+  setup.noSlipWalls = walls && largestViscosity(scene) > 0;
   for (const Solid& solid : scene.solids) {
     setup.noSlipSolids |= sticks(scene, solid);
     setup.noSlipBodies |= sticks(scene, solid) && solid.body;
   }
   if (setup.noSlipSolids) addNoSlipTable(kernel, setup);
-  if (scene.fluid.viscosity > 0) return;
+  if (largestViscosity(scene) > 0) return;
   const auto found = std::ranges::find(scene.solids, false, &Solid::slip);
   if (!walls && found == scene.solids.end()) return;
   const std::string key = walls ? "domain" : elementPath("solids", static_cast<size_t>(found - scene.solids.begin()));
@@ -270,7 +272,7 @@ void addPressureProbes(const Scene& scene, const SmoothingKernel& kernel, const 
     setup.pressureProbes.push_back(
         {.x = place(x.x, origin.x), .y = place(x.y, origin.y), .z = place(x.z, origin.z), .covered = covered ? 1u : 0u});
   }
-  setup.params.pressureDensity = static_cast<float>(scene.fluid.density * kernel.gradientOfUnit());
+  setup.params.pressureDensity = static_cast<float>(densestFluid(scene) * kernel.gradientOfUnit());
   setup.params.pressureProbes = static_cast<uint32_t>(setup.pressureProbes.size());
 }
 
@@ -279,8 +281,8 @@ void addPressureProbes(const Scene& scene, const SmoothingKernel& kernel, const 
 double artificialViscosity(const Scene& scene) {
   const double d = scene.fluid.spacing;
   const double wanted =
-      scene.solver.artificial_viscosity.value_or(kArtificialViscosity) * scene.fluid.density * d * std::sqrt(strongestGravity(scene) * d);
-  return std::max(0.0, wanted - scene.fluid.viscosity);
+      scene.solver.artificial_viscosity.value_or(kArtificialViscosity) * densestFluid(scene) * d * std::sqrt(strongestGravity(scene) * d);
+  return std::max(0.0, wanted - smallestKinematicViscosity(scene) * densestFluid(scene));
 }
 
 double meltingTime(const Scene& scene) {
@@ -289,7 +291,7 @@ double meltingTime(const Scene& scene) {
   return held && gravity > 0 ? kMeltingTime * std::sqrt(scene.fluid.spacing / gravity) : 0;
 }
 
-bool sticks(const Scene& scene, const Solid& solid) { return !solid.slip && scene.fluid.viscosity > 0; }
+bool sticks(const Scene& scene, const Solid& solid) { return !solid.slip && largestViscosity(scene) > 0; }
 
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
 
@@ -349,7 +351,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.tolerance = f(p.iterations > 1 ? std::min(scene.solver.tolerance, kStableError) : scene.solver.tolerance);
   p.maxSubsteps = scene.solver.max_substeps;
   p.maxStep = f(scene.solver.time_step.value_or(1.0 / 60));
-  p.particleMass = f(scene.fluid.density * d * d * d);
+  p.particleMass = f(densestFluid(scene) * d * d * d);
   p.farLimit = f(kFarSpacings * d);
   p.nearLimit = f(solidReach(kernel) + (kTravel + 0.2) * d);
   p.solidSpeed = f(fastestSolid(scene));
@@ -377,6 +379,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   if (auto added = addFlows(scene, origin, setup); !added) return added.error();
   setup.removes = removes(scene);
   p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
+  addFluids(scene, setup);
   setViscosity(scene, kernel, setup);
   setNoSlip(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);

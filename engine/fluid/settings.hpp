@@ -77,6 +77,7 @@ struct FluidSetup {
   StabilityLimits limits;
   double head = 0;                        ///< m^2/s^2, of the start's column
   double longestStep = 0, firstStep = 0;  ///< s, of the start
+  uint32_t fluids = 1;                    ///< number of them
   bool walls = false;                     ///< the domain has a wall
   bool noSlipWalls = false;               ///< fluid sticks to them
   bool noSlipSolids = false;              ///< and to some solid

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fill/mouth.hpp"
+#include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/stability_limits.hpp"
 
@@ -69,7 +70,7 @@ void addSleep(const Scene& scene, double room, FluidSetup& setup) {
   }
   setup.params.sleeps = 1;
   setup.params.sleepLength = f(std::max(room, scene.fluid.spacing));
-  setup.params.kinematicViscosity = f(scene.fluid.viscosity / scene.fluid.density);
+  setup.params.kinematicViscosity = f(largestKinematicViscosity(scene));
   const std::vector<Interval> wakes = merged(causes(scene));
   for (const Interval& wake : wakes) setup.gravity.insert(setup.gravity.end(), {f(wake.from), f(wake.until), 0.0f, 0.0f});
   setup.params.wakes = static_cast<uint32_t>(wakes.size());

@@ -64,6 +64,10 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
   const uint32_t count = record<FluidControl>(s.control).count;
   if (count > shape.capacity)
     return wrong("it has " + std::to_string(count) + " particles; expected at most " + std::to_string(shape.capacity));
+  if (auto right = checkLength("fluid", s.fluid.size(), shape.fluids > 1 ? count : 0); !right) return right;
+  if (!s.fluid.empty() && *std::ranges::max_element(s.fluid) >= shape.fluids)
+    return wrong("it has particles of fluid " + std::to_string(*std::ranges::max_element(s.fluid)) + "; expected an index below " +
+                 std::to_string(shape.fluids));
   Expected<void> result;
   forEachSaved([&](const ArrayRow& row, auto member) {
     // Of a fluid without a warm start, or without regions, there are none.
@@ -257,12 +261,19 @@ uint64_t flowWords(const FluidSetup& setup) {
 }
 
 SnapshotShape snapshotShape(const FluidSetup& setup) {
-  return {setup.params.capacity,      setup.params.solidCount,
-          setup.params.bodyCount,     setup.params.contactPoints,
-          setup.params.listCapacity,  setup.params.emitterCount,
-          flowWords(setup),           regionCount(setup.params),
-          setup.grid.cells(),         setup.params.initialPressureIterations,
-          setup.walls && !setup.thin, setup.movingSolids};
+  return {.capacity = setup.params.capacity,
+          .solidCount = setup.params.solidCount,
+          .bodyCount = setup.params.bodyCount,
+          .contactPoints = setup.params.contactPoints,
+          .listCapacity = setup.params.listCapacity,
+          .emitterCount = setup.params.emitterCount,
+          .fluids = setup.fluids,
+          .flowWords = flowWords(setup),
+          .regions = regionCount(setup.params),
+          .cells = setup.grid.cells(),
+          .initialPressureIterations = setup.params.initialPressureIterations,
+          .segments = setup.walls && !setup.thin,
+          .movingSolids = setup.movingSolids};
 }
 
 bool hasNeighbors(const FluidSnapshot& snapshot) { return record<FluidControl>(snapshot.control).listState == kListValid; }
@@ -302,7 +313,8 @@ void wake(FluidSnapshot& s) {
   s.rest.clear();
 }
 
-void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities) {
+void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint8_t> fluids) {
+  s.fluid.insert(s.fluid.end(), fluids.begin(), fluids.end());
   forgetNeighbors(s);
   wake(s);
   const bool warm = !s.warmStart.empty();
@@ -327,6 +339,7 @@ void append(FluidSnapshot& s, std::span<const Float3> positions, std::span<const
   if (s.flows.empty()) return;
   auto ledger = record<FlowRecord>(s.flows);
   ledger.filled += static_cast<uint32_t>(positions.size());
+  for (const uint8_t fluid : fluids) ++ledger.filledOf[fluid];
   ledger.nextId = next;
   const std::vector<uint32_t> words = wordsOf(ledger);
   std::ranges::copy(words, s.flows.begin());

@@ -15,6 +15,7 @@ struct SnapshotShape {
   uint32_t solidCount = 0, bodyCount = 0, contactPoints = 0;
   uint32_t listCapacity = 0;
   uint32_t emitterCount = 0;
+  uint32_t fluids = 1;
   uint64_t flowWords = 0;                  ///< of FluidSnapshot::flows
   uint64_t regions = 0;                    ///< that fall asleep on their own
   uint64_t cells = 0;                      ///< of the grid
@@ -35,8 +36,9 @@ bool hasNeighbors(const FluidSnapshot& snapshot);
 void forgetNeighbors(FluidSnapshot& snapshot);
 /// A fluid that sleeps, or regions of it, go on in substeps: after a change that it does not see.
 void wake(FluidSnapshot& snapshot);
-/// Particles that were not there before, with the next ids. Neighbors are forgotten.
-void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::span<const Float3> velocities);
+/// Particles that were not there before, with the next ids; `fluids`: empty in a scene with one. Neighbors are forgotten.
+void append(FluidSnapshot& snapshot, std::span<const Float3> positions, std::span<const Float3> velocities,
+            std::span<const uint8_t> fluids = {});
 /// The solids `after` in place of `before`, of which those that both have are the same and keep their motion: solids are added or left
 /// out at the end. `poses`: of those after, in the scene; bodies that go on keep theirs. Neighbors are forgotten.
 void replaceSolids(FluidSnapshot& snapshot, std::span<const Solid> before, std::span<const Solid> after, std::span<const Pose> poses,

@@ -70,6 +70,8 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
     saved = true;
     read(bytes, n, s.*member);
   });
+  if (part == slotOf(FluidArray::Position) && fluid_.setup.fluids > 1)
+    for (const Float4& position : records<Float4>(bytes, n)) s.fluid.push_back(static_cast<uint8_t>(position.w));
   if (saved) return {};
   if (part == slotOf(FluidArray::NearSolids)) {
     FluidSums sums;

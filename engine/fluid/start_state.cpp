@@ -25,11 +25,12 @@ std::vector<NearSolids> firstNearSolids(const FluidSnapshot& s) {
   return all;
 }
 
-/// The vectors as four floats each, then `rest` up to `entries`.
-std::function<void(std::byte*)> quads(std::vector<Float3> vectors, float w, Float4 rest, size_t entries) {
-  return [vectors = std::move(vectors), w, rest, entries](std::byte* to) {
+/// The vectors as four floats each, w from `ws` or, where that is empty, `w`; then `rest` up to `entries`.
+std::function<void(std::byte*)> quads(std::vector<Float3> vectors, std::vector<uint8_t> ws, float w, Float4 rest, size_t entries) {
+  return [vectors = std::move(vectors), ws = std::move(ws), w, rest, entries](std::byte* to) {
     for (size_t i = 0; i < entries; ++i) {
-      const Float4 quad = i < vectors.size() ? Float4{vectors[i].x, vectors[i].y, vectors[i].z, w} : rest;
+      const float own = i < ws.size() ? static_cast<float>(ws[i]) : w;
+      const Float4 quad = i < vectors.size() ? Float4{vectors[i].x, vectors[i].y, vectors[i].z, own} : rest;
       std::memcpy(to + i * sizeof quad, &quad, sizeof quad);
     }
   };
@@ -66,14 +67,16 @@ void FluidImpl::stageFlows() {
   staging_->add(slotOf(FluidArray::Drains), setup.drains.data(), setup.drains.size() * sizeof(DrainRecord));
 }
 
-void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities) {
+void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities, std::vector<uint8_t> fluids) {
   using enum FluidArray;
   // The entries without a particle, and the dummy neighbor behind them, are inactive.
   const Float4 inactive{kInactivePosition, kInactivePosition, kInactivePosition, 0.0f};
   const size_t entries = size_t{capacity} + 1;
-  staging_->add(slotOf(Position), buffer(Position).size(), quads(std::move(positions), rowOf(Position).w, inactive, entries));
-  staging_->add(slotOf(Velocity), buffer(Velocity).size(), quads(std::move(velocities), rowOf(Velocity).w, Float4{0, 0, 0, 1}, entries));
-  // Predictions start as the positions; they and `work` end with the dummy neighbor.
+  staging_->add(slotOf(Position), buffer(Position).size(),
+                quads(std::move(positions), std::move(fluids), rowOf(Position).w, inactive, entries));
+  staging_->add(slotOf(Velocity), buffer(Velocity).size(),
+                quads(std::move(velocities), {}, rowOf(Velocity).w, Float4{0, 0, 0, 1}, entries));
+  // Predictions start as the positions, before the first pass makes them; they and `work` end with the dummy neighbor.
   staging_->addSame(slotOf(Prediction), slotOf(Position));
   staging_->addSame(slotOf(Work), slotOf(Position));
 }
@@ -110,7 +113,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   control.desiredStep = static_cast<float>(setup.firstStep);
   control.emissionWait = kNever;
 
-  stageParticles(std::move(positions), std::move(velocities));
+  stageParticles(std::move(positions), std::move(velocities), setup.fluids > 1 ? particles.fluids : std::vector<uint8_t>());
   staging_->add(slotOf(FluidArray::Control), sizeof control, bytesOf(std::vector{control}));
   staging_->add(slotOf(FluidArray::Sums), sizeof sums, bytesOf(std::vector{sums}));
   staging_->add(slotOf(FluidArray::Solids), setup.solids.data(), setup.solids.size() * sizeof(SolidRecord));
@@ -124,6 +127,11 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   staging_->clear(slotOf(FluidArray::Rest));
   staging_->clear(slotOf(FluidArray::Regions));
   ledger = firstLedger(count, sums.nonFinite);
+  for (uint32_t i = 0; i < count && setup.fluids > 1; ++i) {
+    const uint8_t fluid = particles.fluids.empty() ? 0 : particles.fluids[i];
+    ++ledger.filledOf[fluid];
+    if (!finite(particles.positions[i]) || !std::isfinite(speedOf(particles.velocities[i]))) ++ledger.inactiveOf[fluid];
+  }
   stageFlows();
 }
 
@@ -154,7 +162,7 @@ void FluidImpl::resumeFlows(const FluidSnapshot& s) {
 // `snapshot` has been checked; it lives until the staging is made.
 void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   resumed_ = true;
-  stageParticles(s.position, s.velocity);
+  stageParticles(s.position, s.velocity, s.fluid);
   staging_->add(slotOf(FluidArray::Control), s.control.data(), s.control.size() * 4);
   std::vector<uint32_t> sums = s.sums;
   if (setup.params.solidCount > 0) sums[offsetof(FluidSums, nearSolids) / 4] = static_cast<uint32_t>(firstNearSolids(s).size());

@@ -13,7 +13,7 @@ std::vector<ReferenceSolver::Adhesion> ReferenceSolver::adhesions(std::span<cons
       const glm::dvec3 at = image.of(boundaryPlace_[i]), sign = image.sign;
       const double distance = surfaceOf(n, solids[n], at).distance;
       const double length = settings.tabulated ? sampleNoSlip(noSlipTable_, halfSpace_.step, distance) : noSlipLength(kernel_, distance);
-      const double strength = c * glm::length(vec(own.gradient)) * length;
+      const double strength = c * inverseMass(i) * pairViscosity(i, i) * glm::length(vec(own.gradient)) * length;
       if (strength > 0) all.push_back({i, n, strength, at, settings.noSlipWalls ? sign.x * sign.y * sign.z * sign : sign});
     });
   return all;
@@ -38,7 +38,7 @@ void ReferenceSolver::noSlip(double c, double dt) {
   for (const Adhesion& a : all) {
     const double others = sum[a.particle] - a.strength;
     const glm::dvec3 own = surface(a), free = (before[a.particle] - a.strength * a.reverse * own) / others;
-    stuck.push_back({a.solid, mass() * a.strength * others / sum[a.particle], a.at, a.reverse * free - own});
+    stuck.push_back({a.solid, mass() / inverseMass(a.particle) * a.strength * others / sum[a.particle], a.at, a.reverse * free - own});
   }
   for (size_t n = 0; n < solids.size(); ++n)
     if (bodies_.isFree(n) && !settings.solids[n].slip) solids[n] = bodies_.stuckPose(n, stuck);
@@ -49,7 +49,7 @@ void ReferenceSolver::noSlip(double c, double dt) {
   for (const std::vector<Adhesion>* some : {&held, &all})
     for (const Adhesion& a : *some)
       for (std::vector<Impulse>* to : {&reactions, &impulses_})
-        addTo(*to, solids, 1)(a.solid, a.strength * (surface(a) - a.reverse * state.velocity[a.particle]), a.at);
+        addTo(*to, solids, 1 / inverseMass(a.particle))(a.solid, a.strength * (surface(a) - a.reverse * state.velocity[a.particle]), a.at);
   bodies_.accelerate(reactions);
 }
 

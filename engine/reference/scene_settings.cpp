@@ -1,5 +1,6 @@
 #include "reference/scene_settings.hpp"
 
+#include "fluid/fluids.hpp"
 #include "fluid/stability_limits.hpp"
 
 namespace rill::reference {
@@ -9,7 +10,9 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.kernel = scene.solver.kernel;
   s.spacing = scene.fluid.spacing;
   s.smoothingRatio = scene.fluid.smoothing_ratio;
-  s.density = scene.fluid.density;
+  s.density = densestFluid(scene);
+  if (!scene.fluids.empty())
+    for (const ResolvedFluid& fluid : resolvedFluids(scene)) s.fluids.push_back({.density = fluid.density, .viscosity = fluid.viscosity});
   s.origin = vec(origin);
   for (int a = 0; a < 3; ++a) {
     s.gravity[a] = scene.gravity[a];
@@ -35,7 +38,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.tensile = scene.fluid.tensile;
   s.tensileRadius = scene.fluid.tensile_radius;
   s.tensilePower = scene.fluid.tensile_power;
-  s.viscosity = scene.fluid.viscosity;
+  s.viscosity = largestViscosity(scene);
   s.viscositySteps = static_cast<int>(setup.params.viscositySteps);
   s.noSlipWalls = scene.domain && !scene.domain->slip;
   s.meltingTime = meltingTime(scene);

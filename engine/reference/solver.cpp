@@ -38,6 +38,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   state.warm.assign(count, 0);
   state.id.resize(count);
   std::iota(state.id.begin(), state.id.end(), 0u);
+  state.fluid.assign(count, 0);
   lambda_.assign(count, 0);
   lambdaChange_.assign(count, 0);
   delta_.assign(count, 0);
@@ -174,6 +175,10 @@ ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
   return pair;
 }
 
+double ReferenceSolver::inverseMass(size_t i) const {
+  return settings.fluids.empty() ? 1 : settings.density / settings.fluids[state.fluid[i]].density;
+}
+
 double ReferenceSolver::densityScale() const {
   return settings.meltingTime > 0 ? std::lerp(1.0, liquidScale_, std::min(time_ / settings.meltingTime, 1.0)) : 1;
 }
@@ -195,6 +200,7 @@ void ReferenceSolver::density() {
   for (uint32_t i = 0; i < size(); ++i) {
     boundary_[i] = boundaryOf(state.predicted[i], solids);
     double ratio = kernel_.value(0), squares = 0;
+    const double own = inverseMass(i);
     glm::dvec3 sum = vec(boundary_[i].gradient);
     for (const uint32_t j : found.of(i)) pairs_.push_back(makePair(i, j));
     neighborCount_[i] = static_cast<uint32_t>(found.of(i).size());
@@ -203,19 +209,19 @@ void ReferenceSolver::density() {
     for (const Pair& pair : pairs(i)) {
       ratio += pair.value;
       sum += pair.gradient;
-      squares += glm::dot(pair.gradient, pair.gradient);
+      squares += inverseMass(pair.j) * glm::dot(pair.gradient, pair.gradient);
     }
     densityRatio_[i] = scale * ratio + boundary_[i].value;
     const glm::dmat3 tangential = tangentialScale(i);
     if (!scale_.empty()) scale_[i] = tangential;
-    double all = glm::dot(sum, tangential * sum) + squares * (tangential[0].x + tangential[1].y + tangential[2].z) / 3;
+    double all = own * glm::dot(sum, tangential * sum) + squares * (tangential[0].x + tangential[1].y + tangential[2].z) / 3;
     if (bodies_.any())
-      forEachSample(state.predicted[i], solids, [&](size_t n, const SolidSample& own, const Image& image) {
-        const double root = bodies_.root(n, image.of(state.predicted[i]), vec(own.gradient));
+      forEachSample(state.predicted[i], solids, [&](size_t n, const SolidSample& displaced, const Image& image) {
+        const double root = bodies_.root(n, image.of(state.predicted[i]), vec(displaced.gradient));
         all += root * bodies_.stiffness(n);
         if (firstIteration_) bodies_.addRoot(n, root, mass());
       });
-    denominator_[i] = std::max(all + settings.regularization * rest, kMinDenominator * rest);
+    denominator_[i] = std::max(all + own * settings.regularization * rest, kMinDenominator * rest);
   }
 }
 
@@ -248,11 +254,12 @@ void ReferenceSolver::correction(double dt, double push) {
     const AddReaction later = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { contributions_.push_back({i, n, by, at}); };
     glm::dvec3 sum(0), apart(0);
     for (const Pair& pair : pairs(i)) {
-      sum += (lambdaChange_[i] + lambdaChange_[pair.j] + artificialPressureTerm(pair.value, push)) * (pairScale(i, pair) * pair.gradient);
+      const double artificial = artificialPressureTerm(pair.value, push) / std::max(inverseMass(i), inverseMass(pair.j));
+      sum += (lambdaChange_[i] + lambdaChange_[pair.j] + artificial) * (pairScale(i, pair) * pair.gradient);
       apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
     addReactions(i, lambdaChange_[i], solids, later);
-    const glm::dvec3 moved = state.predicted[i] + sum + lambdaChange_[i] * vec(boundary_[i].gradient) + apart;
+    const glm::dvec3 moved = state.predicted[i] + inverseMass(i) * (sum + lambdaChange_[i] * vec(boundary_[i].gradient)) + apart;
     gain_[i] = glm::dvec3(0);
     if (finite(moved)) {
       wallPosition_[i] = collide(moved, {});
@@ -260,7 +267,7 @@ void ReferenceSolver::correction(double dt, double push) {
       state.predicted[i] = collide(moved, solids, [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) {
         const double share = bodies_.share(n, at, glm::normalize(by));
         rejected_[i] += (1 - share) * by;
-        add(n, share * by, at);
+        add(n, share / inverseMass(i) * by, at);
       });
     } else {
       deactivate(i);
@@ -328,7 +335,8 @@ void ReferenceSolver::dampNoise(double dt) {
 std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v) const {
   std::vector<glm::dvec3> difference(size(), glm::dvec3(0));
   for (size_t i = 0; i < size(); ++i)
-    for (const Pair& pair : pairs(i)) difference[i] += pair.value * (pair.sign * v[pair.j] - v[i]);
+    for (const Pair& pair : pairs(i))
+      if (state.fluid[pair.j] == state.fluid[i]) difference[i] += pair.value * (pair.sign * v[pair.j] - v[i]);
   return difference;
 }
 
@@ -369,12 +377,13 @@ void ReferenceSolver::predictPositions(double dt, bool atRest) {
   const AddReaction add = addTo(warmImpulses_, densityPoses_, 1 / dt), pushed = addTo(warmImpulses_, solids, 1 / dt);
   for (size_t i = 0; i < size(); ++i) {
     const glm::dvec3 v = atRest ? glm::dvec3(0) : state.velocity[i];
-    glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + state.warm[i] * vec(boundary_[i].gradient), push(0);
+    glm::dvec3 push = state.warm[i] * vec(boundary_[i].gradient);
     for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * (pairScale(i, pair) * pair.gradient);
     addReactions(i, state.warm[i], densityPoses_, add);
-    x += push;
+    const glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + inverseMass(i) * push;
     if (finite(x)) {
-      state.predicted[i] = collide(x, solids, pushed, atRest);  // the density that a body displaces is enough
+      const AddReaction weighed = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { pushed(n, by / inverseMass(i), at); };
+      state.predicted[i] = collide(x, solids, weighed, atRest);  // the density that a body displaces is enough
     } else {
       deactivate(i);
     }

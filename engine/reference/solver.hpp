@@ -7,18 +7,20 @@
 // contribution of solids, grad B_i its gradient, a_i = tangential scale, a symmetric matrix: solidScale() in
 // sph/solid_scale.hpp, a_ij = 1 + s (a_i - 1) + s (a_j - 1).
 //   density       rho_i/rho0 = K(0) + sum_j K_ij + B_i,   C_i = rho_i/rho0 - 1,
-//                 D_i = g . a_i g + tr(a_i) / 3 sum_j |G_ij|^2 + eps D_rest with g = sum_j G_ij + grad B_i
+//                 D_i = m_i^-1 g . a_i g + tr(a_i) / 3 sum_j m_j^-1 |G_ij|^2 + m_i^-1 eps D_rest with g = sum_j G_ij + grad B_i
 //   multipliers   delta_i = -omega C_i / D_i,   lambda_i = min(0, lambda_i + delta_i), initially w_i; its change is dlambda_i.
 //                 In the first iteration w_i = min(0, w_i + kappa delta_i): an integral that keeps the pressure of a fluid at rest from
 //                 substep to substep (warm start)
-//   correction    x*_i += sum_j a_ij (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i, then projected out of solids and walls
+//   correction    x*_i += m_i^-1 (sum_j a_ij (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i), then projected out of solids
+//                 and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
 //   viscosity     an implicit step, and noise damping of slow fluid;  vorticity   confinement;  drag   linear
 //   predict       w_i *= (dt_next/dt)^2,
-//                 x*_i = x_i + dt_next (v_i + g dt_next) + sum_j a_ij (w_i + w_j) G_ij + w_i grad B_i, then projected out of solids and
-//                 walls
-// Density to correction repeat for every iteration. The pairs of the last density evaluation (neighbors, K_ij and G_ij) are used by all
-// stages up to the next one.
+//                 x*_i = x_i + dt_next (v_i + g dt_next) + m_i^-1 (sum_j a_ij (w_i + w_j) G_ij + w_i grad B_i), then projected out of
+//                 solids and walls
+// m_i is the particle's mass over that of one of the densest fluid. Density counts particles, whatever their mass (Solenthaler and Pajarola
+// 2008). Density to correction repeat for every iteration. The pairs of the last density evaluation (neighbors, K_ij and G_ij) are used by
+// all stages up to the next one.
 #include <cstdint>
 #include <functional>
 #include <glm/mat3x3.hpp>
@@ -55,12 +57,18 @@ inline constexpr double kScaleOfPair = 0.4;
 /// Lower limit of D_i over D_rest, which avoids division by zero for isolated particles with eps = 0.
 inline constexpr double kMinDenominator = 1e-6;
 
+/// One of several fluids.
+struct ReferenceFluid {
+  double density = 1000;  ///< kg/m^3, > 0
+  double viscosity = 0;   ///< Pa s, >= 0
+};
+
 /// All coefficients, explicitly; there is no "auto".
 struct ReferenceSettings {
   KernelChoice kernel = KernelChoice::Wendland;
   double spacing = 0.05;               ///< d, m, > 0
   double smoothingRatio = 2;           ///< h / d, 1.2 .. 4
-  double density = 1000;               ///< rho0, kg/m^3, > 0
+  double density = 1000;               ///< rho0, kg/m^3, > 0; of the densest of several fluids
   glm::dvec3 gravity = {0, -9.81, 0};  ///< m/s^2
 
   glm::dvec3 lo = glm::dvec3(-std::numeric_limits<double>::infinity());  ///< m, walls; -infinity: open
@@ -90,7 +98,8 @@ struct ReferenceSettings {
   double tensileRadius = 0.25;  ///< delta q / h
   double tensilePower = 16;     ///< n
 
-  double viscosity = 0;                                         ///< mu, Pa s
+  std::vector<ReferenceFluid> fluids;                           ///< empty: one
+  double viscosity = 0;                                         ///< mu, Pa s; the largest of several fluids
   int viscositySteps = 0;                                       ///< of its solve, at most, as the shaders take them; 0: solved exactly
   bool noSlipWalls = false;                                     ///< viscous fluid sticks to the walls
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
@@ -127,6 +136,7 @@ class ReferenceSolver {
     std::vector<glm::dvec3> predicted;  ///< x*, m, at the end of the substep
     std::vector<double> warm;           ///< w, m^2, <= 0
     std::vector<uint32_t> id;           ///< unique
+    std::vector<uint8_t> fluid;         ///< index into settings.fluids
   };
 
   /// Particles without warm start (w = 0), with ids 0, 1, ... and x* = x. Empty `velocities`: all 0.
@@ -172,7 +182,8 @@ class ReferenceSolver {
   size_t size() const { return state.position.size(); }
   double time() const { return time_; }  ///< s, since begin
   const SmoothingKernel& kernel() const { return kernel_; }
-  double mass() const;                             ///< of a particle: rho0 d^3, kg
+  double mass() const;                             ///< of a particle of the densest fluid: rho0 d^3, kg
+  double inverseMass(size_t i) const;              ///< of a particle, over that of one of the densest fluid
   uint64_t inactive() const { return inactive_; }  ///< number of deactivations of non-finite particles
 
   /// Neighbors of particle i, then images.
@@ -197,6 +208,7 @@ class ReferenceSolver {
   glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const AddReaction& add = {}, bool withBodies = true) const;
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses, const AddReaction& add) const;
   void addReactions(size_t i, double multiplier, std::span<const Pose> poses, const AddReaction& add) const;  ///< multiplier times grad B_i
+  /// Adds what it is called with times `factor` and the mass of a particle of the densest fluid, reversed.
   AddReaction addTo(std::vector<Impulse>& impulses, std::span<const Pose> poses, double factor) const;
   std::vector<Pose> poses(double t, double dt) const;  ///< of bodies: where they are predicted to be, else where they are
   void addContributions(double dt, std::span<const double> kept);
@@ -215,10 +227,12 @@ class ReferenceSolver {
   void deactivate(size_t i);
   void addSpeed(double speed);
   void updateRestFactor();
-  double densityScale() const;                                                             ///< factor on the fluid's part of the density
-  std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;          ///< sum_j K_ij (v_j - v_i)
-  std::vector<glm::dvec3> viscousForce(double c, const std::vector<glm::dvec3>& v) const;  ///< c sum_j w q (q . (v_j - v_i))
-  double viscosityBound(double c, std::span<const double> held) const;  ///< as the shaders bound eigenvalues; held: by solids
+  double pairViscosity(size_t i, size_t j) const;                                  ///< over settings.viscosity: the harmonic mean
+  double densityScale() const;                                                     ///< factor on the fluid's part of the density
+  std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)
+  std::vector<glm::dvec3> viscousForce(double c,
+                                       const std::vector<glm::dvec3>& v) const;  ///< c m_i^-1 sum_j mu_ij / mu w q (q . (v_j - v_i))
+  double viscosityBound(double c, std::span<const double> held) const;           ///< as the shaders bound eigenvalues; held: by solids
   /// How a solid holds a particle of viscous fluid; see docs/notes/slip.md.
   struct Adhesion {
     size_t particle, solid;

@@ -15,12 +15,6 @@ namespace {
 
 using Field = std::vector<glm::dvec3>;
 
-double dot(const Field& a, const Field& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i], b[i]);
-  return sum;
-}
-
 /// a + factor b.
 Field sum(const Field& a, double factor, const Field& b) {
   Field all = a;
@@ -30,13 +24,20 @@ Field sum(const Field& a, double factor, const Field& b) {
 
 }  // namespace
 
+double ReferenceSolver::pairViscosity(size_t i, size_t j) const {
+  if (settings.fluids.empty()) return 1;
+  const double own = settings.fluids[state.fluid[i]].viscosity, other = settings.fluids[state.fluid[j]].viscosity;
+  return own > 0 && other > 0 ? 2 / (1 / own + 1 / other) / settings.viscosity : 0;
+}
+
 Field ReferenceSolver::viscousForce(double c, const Field& v) const {
   Field force(size(), glm::dvec3(0));
   for (size_t i = 0; i < size(); ++i)
     for (const Pair& pair : pairs(i)) {
       const glm::dvec3 image = settings.noSlipWalls ? pair.sign.x * pair.sign.y * pair.sign.z * pair.sign : pair.sign;
       const glm::dvec3 q = pair.offset / kernel_.h();
-      force[i] += c * viscousWeight(glm::length(q)) * glm::dot(q, image * v[pair.j] - v[i]) * q;
+      const double factor = c * inverseMass(i) * pairViscosity(i, pair.j);
+      force[i] += factor * viscousWeight(glm::length(q)) * glm::dot(q, image * v[pair.j] - v[i]) * q;
     }
   return force;
 }
@@ -47,7 +48,7 @@ double ReferenceSolver::viscosityBound(double c, std::span<const double> held) c
     glm::dmat3 own(0);
     for (const Pair& pair : pairs(i)) {
       const glm::dvec3 q = pair.offset / kernel_.h();
-      own += viscousWeight(glm::length(q)) * glm::outerProduct(q, q);
+      own += inverseMass(i) * pairViscosity(i, pair.j) * viscousWeight(glm::length(q)) * glm::outerProduct(q, q);
     }
     for (int a = 0; a < 3; ++a)
       bound = std::max(bound, 1 + 2 * c * (std::abs(own[a].x) + std::abs(own[a].y) + std::abs(own[a].z)) + held[i]);
@@ -84,6 +85,12 @@ void ReferenceSolver::viscosity(double dt) {
       add(1, direction);
     }
   } else {
+    // Of momenta and velocities, in which the system is symmetric.
+    const auto dot = [&](const Field& a, const Field& b) {
+      double all = 0;
+      for (size_t i = 0; i < size(); ++i) all += glm::dot(a[i], b[i]) / inverseMass(i);
+      return all;
+    };
     const double enough = 1e-28 * dot(residual, residual);
     Field direction = residual;
     for (double before = dot(residual, residual); before > enough;) {

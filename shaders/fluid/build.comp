@@ -9,6 +9,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/images.glsl"
 #include "fluid/cluster.glsl"
 #include "shared/arrays.glsl"
@@ -231,8 +232,8 @@ void main() {
     x = insideWalls(x + apart);
     from = insideWalls(from + apart);
   }
-  position[i] = vec4(from, 0.0);
-  prediction[i] = vec4(x, max(predicted.w, 0.0));
+  position[i] = vec4(from, storedFluid(fluidOf(predicted.w)));
+  prediction[i] = vec4(x, predicted.w < 0.0 ? withFluid(0.0, fluidOf(predicted.w)) : predicted.w);
   velocity[i] = vec4(moving.xyz, 1.0);
   if (WARM) warm[i] = moving.w;
   id[i] = own;

@@ -4,6 +4,7 @@
 // displaced density and the projection gave, so that friction feels the weight of the column above.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
@@ -31,6 +32,7 @@ float shareOf(uint k, vec3 x, vec3 direction) {
 }
 
 bool countsPushes = false;  // whether what pushes a center changes its velocity
+float ownInverseMass;
 vec3 rejected = vec3(0.0);  // the part of that, m, which changes no velocity
 void pushedBy(uint k, vec3 x, vec3 normal, vec3 by) {
   if (!countsPushes) return;
@@ -39,7 +41,7 @@ void pushedBy(uint k, vec3 x, vec3 normal, vec3 by) {
     rejected += (1.0 - share) * by;
     by *= share;
   }
-  if (LOADS) addToSolid(k, by, x);
+  if (LOADS) addToSolid(k, by / ownInverseMass, x);
 }
 #define PUSHED(k, x, normal, by) pushedBy(k, x, normal, by)
 #include "fluid/outside.glsl"
@@ -65,11 +67,11 @@ uint nearestSolid(uvec3 near, vec3 x, out vec3 direction) {
   return nearest;
 }
 
-void predict(uint i, uvec3 near, vec3 x, vec3 v) {
+void predict(uint i, uvec3 near, vec3 x, vec3 v, uint fluid) {
   if (FORCES) return;  // predict.comp, after them
   float pushed;
   vec3 next = outside(predicted(x, v, keptWarmAcceleration(warmAcceleration[i])), near, ahead(), pushed);
-  prediction[i] = vec4(next, pushed);
+  prediction[i] = vec4(next, withFluid(pushed, fluid));
 }
 
 void main() {
@@ -79,13 +81,15 @@ void main() {
   uvec3 near = nearSolids[n].yzw;
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
+  uint fluid = fluidOf(position[i]);
+  ownInverseMass = inverseMassOf(fluid);
   float pushed;
   countsPushes = control.phase == kPhaseAdvancing;
   vec3 x = outside(from, near, 0.0, pushed);
   countsPushes = false;
   if (control.phase != kPhaseAdvancing) {
-    position[i] = vec4(x, 0.0);
-    predict(i, near, x, velocity[i].xyz);
+    position[i] = vec4(x, storedFluid(fluid));
+    predict(i, near, x, velocity[i].xyz, fluid);
     return;
   }
   vec3 gained = (x - from) / control.step;
@@ -95,11 +99,11 @@ void main() {
   // share of the change already.
   float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
   float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
-  vec3 given = multiplier * nearDisplaced[i].xyz / control.step + gained;
+  vec3 given = ownInverseMass * multiplier * nearDisplaced[i].xyz / control.step + gained;
   if (LOADS && freeVelocity[i].w > 0.0) {
     vec3 direction, at = uintBitsToFloat(work[i].xyz);
     uint pushing = nearestSolid(near, at, direction);
-    if (pushing != kNoSolid) addToSolid(pushing, freeVelocity[i].w * direction, at);
+    if (pushing != kNoSolid) addToSolid(pushing, freeVelocity[i].w / ownInverseMass * direction, at);
   }
   for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
     if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
@@ -125,11 +129,11 @@ void main() {
     if (BODIES && slip > 0.0) stopped *= shareOf(k, x, along / slip);
     along *= 1.0 - stopped;
     vec3 after = moving + along + away * normal;
-    if (LOADS) addToSolid(k, control.step * (after - v), x);
+    if (LOADS) addToSolid(k, control.step / ownInverseMass * (after - v), x);
     v = after;
   }
   v *= min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));
-  position[i] = vec4(x, 0.0);
+  position[i] = vec4(x, storedFluid(fluid));
   velocity[i] = vec4(v, 1.0);
-  predict(i, near, x, v);
+  predict(i, near, x, v, fluid);
 }

@@ -7,8 +7,10 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
+#define PARTICLE uvec4
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
@@ -19,11 +21,11 @@ layout(std430, binding = 9) buffer VelocityBlock { vec4 velocity[]; };
 
 vec3 here;
 vec4 own;
-uint head;
+uint head, fluid;
 vec3 rise = vec3(0.0);
 
-void visit(vec4 particle, vec4 companion) {
-  vec3 r = here - particle.xyz;
+void visit(uvec4 particle, vec4 companion) {
+  vec3 r = here - uintBitsToFloat(particle.xyz);
   rise += (companion.w - own.w) * gradientShape(sqrt(dot(r, r))) * r;
 }
 #include "fluid/gather.glsl"

@@ -25,5 +25,6 @@ layout(constant_id = 21) const bool NO_SLIP_SOLIDS = false;  // fluid sticks to 
 layout(constant_id = 22) const bool REMOVES = false;   // particles come and go: at a rebuild, inactive ones are taken out
 layout(constant_id = 23) const bool OUTFLOW = false;   // a side is a wall up to a level only
 layout(constant_id = 24) const bool REGIONS = false;   // regions of fluid at rest sleep on their own
+layout(constant_id = 25) const bool FLUIDS = false;    // there are several fluids
 #define LIST_OVERSIZED_ID 13
 #endif

@@ -12,6 +12,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/artificial_pressure.glsl"
 #include "fluid/cluster.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -33,20 +34,20 @@ layout(std430, binding = 16) writeonly buffer NearMultipliersBlock { vec2 nearMu
 
 vec3 here;
 vec2 own;                           // multiplier change, warm start; in the unit
+uint fluid;
+float inverseMass;
 vec3 correction = vec3(0.0);        // m, once scaled
 vec3 warmDisplacement = vec3(0.0);  // m, once scaled
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 float pressure = control.artificialPressure * kMultiplierScale;
 
-vec2 multipliers(uvec4 particle) { return unpackHalf2x16(particle.w); }
-
 void visit(uvec4 particle) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
   float distance = sqrt(dot(r, r));
   vec3 gradient = gradientShape(distance) * r;
-  vec2 both = own + multipliers(particle);
-  if (ARTIFICIAL_PRESSURE) both.x -= pressure * artificialPressure(distance);
+  vec2 both = own + unpackHalf2x16(particle.w);
+  if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOf(particle)));
   correction += both.x * gradient;
   if (WARM) warmDisplacement += both.y * gradient;
 }
@@ -69,7 +70,7 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
 
 // Of a particle that sleeps: what would move it, for rest_motion.comp.
 void storeAcceleration(uint i) {
-  warmDisplacement *= unit * params.gradientScale;
+  warmDisplacement *= inverseMass * unit * params.gradientScale;
   if (WARM) warmAcceleration[i] = vec4(warmDisplacement / (control.warmStep * control.warmStep), 0.0);
 }
 
@@ -85,6 +86,8 @@ float endSubstep(uint i, uint head) {
     correction += scaledExcess(scale, correction) + excess + own.x * displaced;
     warmDisplacement += scaledExcess(scale, warmDisplacement) + warmExcess + own.y * displaced;
   }
+  correction *= inverseMass;
+  warmDisplacement *= inverseMass;
 
   vec3 from = position[i].xyz, before = velocity[i].xyz;
   vec4 lastAcceleration = WARM ? warmAcceleration[i] : vec4(0.0);
@@ -128,12 +131,12 @@ float endSubstep(uint i, uint head) {
     float momentum = control.nextPhase == kPhaseInitialPressure ? params.initialPressureMomentum : 0.0;
     warm[i] = min(0.0, found + momentum * (found - lastAcceleration.w));
   }
-  position[i] = vec4(to, 0.0);
+  position[i] = vec4(to, storedFluid(fluid));
   if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = finite ? unit * vec2(kept * own.x, own.y) : vec2(0.0);
-  if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), prediction[i].w);
+  if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), withoutFluid(prediction[i].w));
   velocity[i] = vec4(v, 1.0);
   if (WARM) warmAcceleration[i] = vec4(acceleration, found);
-  prediction[i] = vec4(next, 0.0);
+  prediction[i] = vec4(next, withFluid(0.0, fluid));
   return sqrt(dot(v, v));
 }
 
@@ -151,7 +154,9 @@ void main() {
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
-  own = multipliers(particle);
+  own = unpackHalf2x16(particle.w);
+  fluid = fluidOf(particle);
+  inverseMass = inverseMassOf(fluid);
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
   bool looks = moves || (inRange && control.regionTime <= 1.01 * control.step);  // asleep: once for each list

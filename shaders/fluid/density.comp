@@ -13,6 +13,7 @@
 #include "fluid/cluster.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/density_scale.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
 
@@ -32,7 +33,8 @@ layout(std430, binding = 16) readonly buffer GravityBlock { vec4 gravityChanges[
 vec3 here;
 float rho = 0.0;        // over rest density
 vec3 gradientSum = vec3(0.0);
-float gradientSquares = 0.0;
+float gradientSquares = 0.0;  // each over the neighbor's mass
+uint fluid;
 
 void visit(vec4 particle) {
   vec3 r = here - particle.xyz;
@@ -41,7 +43,7 @@ void visit(vec4 particle) {
   kernelShapes(sqrt(squared), value, gradient);
   rho += value;
   gradientSum += gradient * r;
-  gradientSquares += gradient * gradient * squared;
+  gradientSquares += inverseMassOf(fluidOf(particle.w)) * gradient * gradient * squared;
 }
 void reflectSums(vec3 signs) { gradientSum *= signs; }
 #define IMAGES
@@ -50,7 +52,7 @@ void reflectSums(vec3 signs) { gradientSum *= signs; }
 float unit = kMultiplierScale / params.inverseRestGradient;  // of multipliers as halves
 
 void storeWork(uint i, float change, float warmNext) {
-  work[i] = uvec4(floatBitsToUint(here), packHalf2x16(clamp(vec2(change, warmNext) * unit, -60000.0, 60000.0)));
+  work[i] = uvec4(placeWithFluid(here, fluid), packHalf2x16(clamp(vec2(change, warmNext) * unit, -60000.0, 60000.0)));
 }
 
 // Asleep: the multiplier stays, in the terms of the next step.
@@ -76,7 +78,8 @@ float updateMultiplier(uint i, uint head) {
   }
 
   float constraint = isActive(here) ? rho - 1.0 : -1.0;  // inactive particles coincide; exclude them from the error
-  float stiffness = stiffnessAtSolids(solids, gradientSum, gradientSquares, params.regularization);
+  float inverseMass = inverseMassOf(fluid);
+  float stiffness = stiffnessAtSolids(solids, gradientSum, inverseMass, gradientSquares, inverseMass * params.regularization);
   if (BODIES && (head & kNearSolidsBit) != 0u) stiffness += nearStiffnessAt(i);
   bool first = push.iteration == 0u;
   float delta = -(first ? control.nextRelaxation : control.relaxation) * constraint / max(stiffness, 1.0e-20);
@@ -143,7 +146,9 @@ void main() {
   uint i = push.first + local;
   bool going = runs(), inRange = going && i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
-  here = particleAt(i).xyz;
+  vec4 particle = particleAt(i);
+  here = particle.xyz;
+  fluid = fluidOf(particle.w);
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
   visitNeighbors(i, moves ? head : 0u, local, moves);

@@ -3,6 +3,7 @@
 // rebuild takes them out.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "shared/flow_records.h"
 layout(local_size_x = kFluidGroup) in;
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
@@ -40,8 +41,10 @@ void main() {
   if (drain < params.drainCount) {
     atomicAdd(drains[drain].drained, 1u);
     atomicAdd(flow.drained, 1u);
+    if (FLUIDS) atomicAdd(flow.drainedOf[fluidOf(position[i])], 1u);
   } else if (hasLeft(x)) {
     atomicAdd(flow.left, 1u);
+    if (FLUIDS) atomicAdd(flow.leftOf[fluidOf(position[i])], 1u);
   } else {
     return;
   }

@@ -4,6 +4,7 @@
 // and taken out by the sort that follows.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "shared/arrays.glsl"
 #include "shared/flow_records.h"
 layout(local_size_x = kFluidGroup) in;
@@ -66,7 +67,7 @@ void main() {
     atomicAdd(emitters[e].emitted, 1u);
     atomicAdd(flow.emitted, 1u);
   }
-  position[i] = vec4(x, 0.0);
+  position[i] = vec4(x, storedFluid(emitters[e].fluid));
   velocity[i] = vec4(v, 1.0);
   prediction[i] = vec4(blocked ? x : insideWalls(predicted(x, v, vec3(0.0))), 0.0);
   if (WARM) warm[i] = 0.0;

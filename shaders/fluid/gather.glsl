@@ -1,5 +1,5 @@
 // The sum over neighbors of a pass with one invocation a particle. Before it includes this the shader declares `push`, `vec3 here`,
-// `vec4 own` and `uint head`, and defines COMPANION(j) and what else fluid/neighbors.glsl needs.
+// `vec4 own`, `uint head` and `uint fluid`, and defines COMPANION(j) and what else fluid/neighbors.glsl needs.
 #ifndef RILL_GATHER_GLSL
 #define RILL_GATHER_GLSL
 #include "fluid/neighbors.glsl"
@@ -11,7 +11,9 @@ bool gather(out uint i) {
   i = push.first + local;
   bool inRange = i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
-  here = particleAt(i).xyz;
+  uvec4 particle = particleAt(i);
+  here = uintBitsToFloat(particle.xyz);
+  fluid = fluidOf(particle);
   own = COMPANION(i);
   head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);

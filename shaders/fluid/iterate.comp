@@ -8,6 +8,7 @@
 #define PARTICLE uvec4
 #include "fluid/arrays.glsl"
 #include "fluid/cluster.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -25,11 +26,9 @@ vec3 moved = vec3(0.0);
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 
-float multiplier(uvec4 particle) { return unpackHalf2x16(particle.w).x; }
-
 void visit(uvec4 particle) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
-  moved += (own + multiplier(particle)) * gradientShape(sqrt(dot(r, r))) * r;
+  moved += (own + unpackHalf2x16(particle.w).x) * gradientShape(sqrt(dot(r, r))) * r;
 }
 void reflectSums(vec3 signs) { moved *= signs; }
 #define IMAGES
@@ -42,7 +41,7 @@ void main() {
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
-  own = multiplier(particle);
+  own = unpackHalf2x16(particle.w).x;
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
   visitNeighbors(i, moves ? head : 0u, local, moves);
@@ -53,5 +52,5 @@ void main() {
     moved += scaledExcess(solidScaleAt(i, head), moved) + excess + unit * own * displacedAt(i, head).xyz;
     if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = vec2(unit * own, 0.0);
   }
-  prediction[i] = vec4(insideWalls(here + moved), prediction[i].w);
+  prediction[i] = vec4(insideWalls(here + inverseMassOf(fluidOf(particle)) * moved), prediction[i].w);
 }

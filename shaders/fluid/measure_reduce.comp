@@ -71,7 +71,7 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   if (lane < kMeasurePartials) {
     if (lane < partialCount()) rows[lane] = partials[lane];
-    else rows[lane] = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
+    else rows[lane] = MeasurePartial(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0u, 0u);
   }
   barrier();
   for (uint half_ = kMeasurePartials / 2u; half_ > 0u; half_ /= 2u) {

@@ -3,6 +3,7 @@
 // outside. One partial sum a workgroup, in a fixed order.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/partials.glsl"
 #include "shared/arrays.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -17,11 +18,12 @@ void main() {
   uint lane = gl_LocalInvocationID.x;
   vec3 low = vec3(params.boundLowX, params.boundLowY, params.boundLowZ);
   vec3 high = vec3(params.boundHighX, params.boundHighY, params.boundHighZ);
-  float compression = 0.0, compressionMax = 0.0, squares = 0.0, squaresMax = 0.0;
+  float compression = 0.0, compressionMax = 0.0, squares = 0.0, squaresMax = 0.0, masses = 0.0;
   vec3 velocities = vec3(0.0), positions = vec3(0.0);
   uint outside = 0u, inactive = 0u;
   for (uint i = flatInvocation(); i < control.count; i += partialCount() * kFluidGroup) {
-    vec3 x = positionAt(i).xyz;
+    vec4 particle = positionAt(i);
+    vec3 x = particle.xyz;
     if (!isActive(x)) {
       outside += 1u;
       inactive += 1u;
@@ -31,13 +33,15 @@ void main() {
     float error = max(v.w - 1.0, 0.0), square = dot(v.xyz, v.xyz);
     compression += error;
     compressionMax = max(compressionMax, error);
-    squares += square;
+    float mass = 1.0 / inverseMassOf(fluidOf(particle));
+    squares += mass * square;
     squaresMax = max(squaresMax, square);
-    velocities += v.xyz;
-    positions += x;
+    velocities += mass * v.xyz;
+    positions += mass * x;
+    masses += mass;
     outside += uint(any(lessThan(x, low)) || any(greaterThan(x, high)));
   }
-  rows[lane] = MeasurePartial(compression, compressionMax, squares, sqrt(squaresMax),
+  rows[lane] = MeasurePartial(compression, compressionMax, sqrt(squaresMax), masses, squares,
                               velocities.x, velocities.y, velocities.z, positions.x, positions.y,
                               positions.z, outside, inactive);
   barrier();

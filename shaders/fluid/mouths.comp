@@ -3,6 +3,7 @@
 // piston, whose face moves with the flow from where the last layer was born to where the next one will be, and with the mouth.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "shared/arrays.glsl"
 #include "shared/flow_records.h"
 layout(local_size_x = kFluidGroup) in;
@@ -62,5 +63,5 @@ void main() {
   x = insideWalls(x);
   position[i].xyz = x;
   velocity[i].xyz = v;
-  prediction[i] = vec4(insideWalls(predicted(x, v, keptWarmAcceleration(warmAccelerationAt(i)))), 0.0);
+  prediction[i] = vec4(insideWalls(predicted(x, v, keptWarmAcceleration(warmAccelerationAt(i)))), withFluid(0.0, fluidOf(position[i])));
 }

@@ -19,14 +19,14 @@ layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
 #include "fluid/no_slip.glsl"
 #include "fluid/solid_sums.glsl"
 
-void addReactions(uvec3 near, vec3 x, vec3 v) {
+void addReactions(uvec3 near, vec3 x, vec3 v, uint fluid) {
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
       vec3 toward = velocityAt(solids[k].pose, image) - imageVelocity(signs, v);
-      addToSolid(k, control.step * adhesion(k, image) * toward, image);
+      addToSolid(k, control.step / inverseMassOf(fluid) * adhesion(k, image, fluid) * toward, image);
     }
     more = advance(images);
   } LOOP_END(more);
@@ -36,12 +36,14 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   uvec4 near = nearSolidsAt(n);
-  vec3 x = uintBitsToFloat(workAt(near.x).xyz);
+  uvec4 particle = workAt(near.x);
+  uint fluid = fluidOf(particle);
+  vec3 x = uintBitsToFloat(particle.xyz);
   if (!isActive(x)) return;
   vec3 v = velocity[near.x].xyz;
   if (BODIES) {
-    Adhesion a = adhesionAt(near.yzw, x, true);
+    Adhesion a = adhesionAt(near.yzw, x, fluid, true);
     if (a.all > 0.0) velocity[near.x].xyz = v = (v + a.pull) / (1.0 + a.all);
   }
-  if (LOADS) addReactions(near.yzw, x, v);
+  if (LOADS) addReactions(near.yzw, x, v, fluid);
 }

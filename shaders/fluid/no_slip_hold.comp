@@ -21,8 +21,9 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   uvec4 near = nearSolidsAt(n);
-  vec3 x = uintBitsToFloat(workAt(near.x).xyz);
+  uvec4 particle = workAt(near.x);
+  vec3 x = uintBitsToFloat(particle.xyz);
   Adhesion a = Adhesion(0.0, vec3(0.0));
-  if (isActive(x)) a = adhesionAt(near.yzw, x, false);
+  if (isActive(x)) a = adhesionAt(near.yzw, x, fluidOf(particle), false);
   hold[near.x] = vec4(a.pull, a.all);
 }

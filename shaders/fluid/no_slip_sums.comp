@@ -21,7 +21,7 @@ layout(std430, binding = 10) readonly buffer BodyBlock { BodyRecord bodies[]; };
 #include "fluid/no_slip.glsl"
 #include "fluid/solid_sums.glsl"
 
-// `b`: what the particle gives solid k of its velocity w relative to it, over its mass.
+// `b`: what the particle gives solid k of its velocity w relative to it, over the mass of one of the densest fluid.
 void addToBody(uint k, float b, vec3 x, vec3 w) {
   uint body = solids[k].body;
   vec3 r = (x - centerOf(bodies[body].state)) / params.loadLever, moved = w * (control.step / params.spacing), turn = cross(r, moved);
@@ -39,9 +39,11 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   uvec4 near = nearSolidsAt(n);
-  vec3 x = uintBitsToFloat(workAt(near.x).xyz), v = velocity[near.x].xyz;
+  uvec4 particle = workAt(near.x);
+  uint fluid = fluidOf(particle);
+  vec3 x = uintBitsToFloat(particle.xyz), v = velocity[near.x].xyz;
   if (!isActive(x)) return;
-  Adhesion all = adhesionAt(near.yzw, x, true);
+  Adhesion all = adhesionAt(near.yzw, x, fluid, true);
   if (!(all.all > 0.0)) return;
   Images images = imagesNear(x, params.support);
   bool more = true;
@@ -49,10 +51,10 @@ void main() {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
       if (solids[k].body == kNoBody || bodies[solids[k].body].held != 0u || bodies[solids[k].body].stopped != 0u) continue;
-      float a = adhesion(k, image), others = 1.0 + all.all - a;
+      float a = adhesion(k, image, fluid), others = 1.0 + all.all - a;
       if (!(a > 0.0)) continue;
       vec3 own = velocityAt(solids[k].pose, image), free = (v + all.pull - a * imageVelocity(signs, own)) / others;
-      addToBody(k, a * others / (others + a), image, imageVelocity(signs, free) - own);
+      addToBody(k, a * others / (others + a) / inverseMassOf(fluid), image, imageVelocity(signs, free) - own);
     }
     more = advance(images);
   } LOOP_END(more);

@@ -10,6 +10,7 @@
 #include "fluid/arrays.glsl"
 #include "fluid/artificial_pressure.glsl"
 #include "fluid/cluster.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/solid_samples.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -17,25 +18,24 @@ layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(8, nearTangential)
 READ_UINT4(9, nearSolids)                                                      // NearSolidRecord
-layout(std430, binding = 10) writeonly buffer ExcessBlock { vec4 nearExcess[]; };  // m, two of each particle
+layout(std430, binding = 10) writeonly buffer ExcessBlock { vec4 nearExcess[]; };  // m, two of each particle, of a mass of 1
 
 vec3 here;
 vec2 own;  // multiplier change, warm start; in the unit
+float inverseMass;
 vec3 excess = vec3(0.0), warmExcess = vec3(0.0);
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 // Iterations before the last have none.
 float pressure = push.iteration == 0u ? control.artificialPressure * kMultiplierScale : 0.0;
 
-vec2 multipliers(uvec4 particle) { return unpackHalf2x16(particle.w); }
-
 #define COMPANION(j) nearTangentialAt(j)
 void visit(uvec4 particle, vec4 tangential) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
   float distance = sqrt(dot(r, r));
   vec3 gradient = scaledExcess(unpackSolidScale(tangential), gradientShape(distance) * r);
-  vec2 both = own + multipliers(particle);
-  if (ARTIFICIAL_PRESSURE) both.x -= pressure * artificialPressure(distance);
+  vec2 both = own + unpackHalf2x16(particle.w);
+  if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOf(particle)));
   excess += both.x * gradient;
   warmExcess += both.y * gradient;
 }
@@ -53,7 +53,8 @@ void main() {
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
-  own = multipliers(particle);
+  own = unpackHalf2x16(particle.w);
+  inverseMass = inverseMassOf(fluidOf(particle));
   visitNeighbors(i, headOf(i, inRange), inRange ? i - push.first : 0u, inRange);
   if (!inRange) return;
   float toMeters = unit * params.gradientScale;

@@ -5,8 +5,8 @@
 uint partialCount() { return min((control.count + kMeasureShare * kFluidGroup - 1u) / (kMeasureShare * kFluidGroup), kMeasurePartials); }
 
 MeasurePartial addPartials(MeasurePartial a, MeasurePartial b) {
-  return MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax), a.kinetic + b.kinetic,
-                        max(a.speedMax, b.speedMax),
+  return MeasurePartial(a.compression + b.compression, max(a.compressionMax, b.compressionMax),
+                        max(a.speedMax, b.speedMax), a.mass + b.mass, a.kinetic + b.kinetic,
                         a.velocityX + b.velocityX, a.velocityY + b.velocityY, a.velocityZ + b.velocityZ, a.positionX + b.positionX,
                         a.positionY + b.positionY, a.positionZ + b.positionZ, a.outside + b.outside, a.inactive + b.inactive);
 }

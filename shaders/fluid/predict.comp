@@ -4,6 +4,7 @@
 // known, and after forces that changed velocities. NEAR_SOLIDS: for the particles that solids may push alone.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "shared/arrays.glsl"
 READ_FLOAT4(2, position)
 READ_FLOAT4(3, velocity)
@@ -23,9 +24,10 @@ void main() {
   uvec3 near = NEAR_SOLIDS ? nearSolids[i].yzw : kNothingNear;
   if (NEAR_SOLIDS) i = nearSolids[i].x;
   if (REGIONS && (listHeadAt(i) & kAsleepBit) != 0u) return;
-  vec3 x = positionAt(i).xyz;
+  vec4 present = positionAt(i);
+  vec3 x = present.xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;
   next = NEAR_SOLIDS ? outside(next, near, ahead(), pushed) : insideWalls(next);
-  prediction[i] = vec4(isFinite(next) ? next : x, pushed);
+  prediction[i] = vec4(isFinite(next) ? next : x, withFluid(pushed, fluidOf(present)));
 }

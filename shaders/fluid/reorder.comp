@@ -4,6 +4,7 @@
 // prediction below 0 is a particle's zone: it stays where it is.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/regions.glsl"
 #include "fluid/sorted_places.glsl"
 #include "shared/number.glsl"
@@ -32,7 +33,8 @@ void main() {
   if (slot >= control.count) return;
   if (SOLIDS) nearTangential[slot] = vec4(0.0);
   uint place, from = arrival(slot, place);
-  vec3 x = positionAt(from).xyz, v = velocityAt(from).xyz;
+  vec4 present = positionAt(from);
+  vec3 x = present.xyz, v = velocityAt(from).xyz;
   vec4 next = predictionAt(from);
   uint zone = REGIONS ? zoneOf(x) : kZoneMoves;
   if (REGIONS) rest[place] = zone;
@@ -41,6 +43,6 @@ void main() {
     next = vec4(x, -float(zone));
   }
   sortedPosition[place] = vec4(x, numberToFloat(idAt(from)));
-  sortedPrediction[place] = next;
+  sortedPrediction[place] = vec4(next.xyz, withFluid(next.w, fluidOf(present)));
   sortedVelocity[place] = vec4(v, WARM ? presentWarm(from) : 0.0);
 }

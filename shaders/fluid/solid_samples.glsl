@@ -20,9 +20,9 @@ vec3 scaled(SolidScale s, vec3 neighbors) {
 const float kScaleOfPair = 0.4;
 vec3 scaledExcess(SolidScale s, vec3 neighbors) { return kScaleOfPair * (scaled(s, neighbors) - neighbors); }
 
-// D of docs/method.md: of the gradient's sum and its squares, and `more`.
-float stiffnessAtSolids(SolidScale s, vec3 gradient, float squares, float more) {
-  return dot(gradient, scaled(s, gradient)) + squares * (s.diagonal.x + s.diagonal.y + s.diagonal.z) / 3.0 + more;
+// D of docs/method.md: of the gradient's sum and its squares, which are over the masses of the neighbors, and `more`.
+float stiffnessAtSolids(SolidScale s, vec3 gradient, float inverseMass, float squares, float more) {
+  return inverseMass * dot(gradient, scaled(s, gradient)) + squares * (s.diagonal.x + s.diagonal.y + s.diagonal.z) / 3.0 + more;
 }
 
 // Off the diagonal: at most 1/3, as three numbers of 10 bits around 512, a float that is neither denormal nor NaN. 0: none.

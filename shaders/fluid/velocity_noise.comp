@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
+#define PARTICLE uvec4
 #include "fluid/arrays.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };

@@ -1,22 +1,23 @@
-// dt L of viscosity, negative: c sum_j (1-q)^3 q q^T (v_j - v_i), q from j to i over the support. The force of a pair is along its line and
+// dt L of viscosity, negative: c_ij sum_j (1-q)^3 q q^T (v_j - v_i), q from j to i over the support. The force of a pair is along its line and
 // proportional to the speed along it: it keeps angular momentum. The pairs are those of the density pass: gathers from `work`.
 // Include it after `push` is declared, with COMPANION(j) the velocity of j. BOUNDS: also bounds the eigenvalues of 1 + dt L.
 #ifndef RILL_FLUID_VISCOUS_FORCE_GLSL
 #define RILL_FLUID_VISCOUS_FORCE_GLSL
 #include "fluid/cluster.glsl"
+#include "fluid/fluids.glsl"
 
 float inverseSupport = params.inverseSupport;  // loaded once, see kernel.glsl
 vec3 here;
 vec4 own;
-uint head;
+uint head, fluid;
 vec3 force = vec3(0.0);
 #ifdef BOUNDS
 vec3 diagonal = vec3(0.0), mixed = vec3(0.0);  // of sum_j (1-q)^3 q q^T; mixed: yz, zx, xy
 #endif
 
-void visit(vec4 particle, vec4 companion) {
-  vec3 q = (here - particle.xyz) * inverseSupport;
-  float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = t * t * t;
+void visit(uvec4 particle, vec4 companion) {
+  vec3 q = (here - uintBitsToFloat(particle.xyz)) * inverseSupport;
+  float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = pairViscosity(fluid, fluidOf(particle)) * t * t * t;
   force += weight * dot(q, companion.xyz - own.xyz) * q;
 #ifdef BOUNDS
   diagonal += weight * q * q;
@@ -40,7 +41,7 @@ void reflectSums(vec3 signs) {
 // Gathers `force` of the invocation's particle i; false where it has none. 0 for one that sleeps.
 bool gatherForce(out uint i) {
   bool inRange = gather(i);
-  force *= params.viscosityRate * control.step;
+  force *= inverseMassOf(fluid) * params.viscosityRate * control.step;
   return inRange;
 }
 
@@ -51,7 +52,7 @@ bool gatherForce(out uint i) {
 // Of the eigenvalues that the particle's row may have: twice a norm of its own block.
 float eigenvalueBound() {
   vec3 rows = diagonal + abs(mixed.zxy) + abs(mixed.yzx);
-  return 1.0 + 2.0 * params.viscosityRate * control.step * max(rows.x, max(rows.y, rows.z));
+  return 1.0 + 2.0 * inverseMassOf(fluid) * params.viscosityRate * control.step * max(rows.x, max(rows.y, rows.z));
 }
 #endif
 #endif

@@ -5,18 +5,21 @@
 #ifndef RILL_FLUID_XSPH_GLSL
 #define RILL_FLUID_XSPH_GLSL
 #include "fluid/cluster.glsl"
+#include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
 
 #define COMPANION(j) sweepFromAt(j)
 
 vec3 here;
 vec4 own;
-uint head;
+uint head, fluid;
 vec3 difference = vec3(0.0);  // over params.valueScale until it is gathered
 
-void visit(vec4 particle, vec4 companion) {
-  vec3 r = here - particle.xyz;
-  difference += kernelShape(sqrt(dot(r, r))) * (companion.xyz - own.xyz);
+void visit(uvec4 particle, vec4 companion) {
+  vec3 r = here - uintBitsToFloat(particle.xyz);
+  float weight = kernelShape(sqrt(dot(r, r)));
+  if (fluidOf(particle) != fluid) weight = 0.0;  // the velocities of two fluids differ along their interface
+  difference += weight * (companion.xyz - own.xyz);
 }
 void reflectSums(vec3 signs) {
   difference *= signs;

@@ -9,6 +9,8 @@ RILL_CONST float kLateLayers = 0.25f;  // by how many layers a birth may be late
 RILL_CONST float kNever = 1.0e30f;     // s
 RILL_CONST uint kHalfLayer = 0x80000000u;  // phase at the start: the first layer is due when half of it has left
 
+RILL_CONST uint kFluidLedgers = 8u;        // one for each of several fluids
+
 RILL_CONST uint kNoRoom = 1u;   // the capacity, or the ids, did not do for a whole layer
 RILL_CONST uint kCovered = 2u;  // a part of the mouth is in a solid or behind a wall
 
@@ -26,6 +28,7 @@ struct EmitterRecord {
   uint isDisc;                      // 1: a disc
   uint firstKey, keyCount;          // of its motion, entries of the keyframe buffer
   float motionSpeed;                // m/s, at most, of the mouth's own motion
+  uint fluid;                       // index of what leaves it
   // State.
   uint phase;                       // of the layer that leaves, in units of 2^-32
   uint due;                         // layers to be born at the next rebuilds
@@ -60,6 +63,8 @@ struct FlowRecord {
   // Of the last rebuild.
   uint firstBorn;            // entry of the first birth
   uint candidates;
+  // Of each of several fluids, as above; emitters have the rest.
+  uint filledOf[kFluidLedgers], inactiveOf[kFluidLedgers], drainedOf[kFluidLedgers], leftOf[kFluidLedgers];
 };
 
 struct EmissionPush {

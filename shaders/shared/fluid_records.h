@@ -45,7 +45,7 @@ struct FluidParams {
   uint outflowSide;       // likewise a bit; a wall up to
   float outflowLevel;     // m; kNoWall: no outflow
   uint openRemoves;       // sides, as bits of SideMask, through which particles leave for good
-  float pressureDensity;  // kg/m^3, that makes a pressure of a multiplier over the square of the step: see docs/notes/pressure.md
+  float pressureDensity;  // kg/m^3, of the densest fluid, that makes a pressure of a multiplier over the square of the step: see docs/notes/pressure.md
   float bodySpeed;        // m/s, the fastest point of a body at the start
   float separationSpeed;  // m/s, at which bodies that overlap come apart, at most
   float spacing;          // m
@@ -94,7 +94,7 @@ struct FluidParams {
   float tensilePower;     // n
   float tensileInverse;   // 1 / K(delta q)
   float tensileLeast;     // K / K(delta q) of neighbors at rest
-  float particleMass;     // kg
+  float particleMass;     // kg; of the densest of several fluids
   uint gravityChanges;    // entries of the schedule
   float farLimit;         // m from the origin beyond which a particle becomes inactive
   float nearLimit;        // m from a solid's surface within which a particle is listed as near
@@ -117,8 +117,11 @@ struct FluidParams {
   uint sleeps;            // 1: fluid at rest takes no substeps; see docs/notes/sleep.md
   uint wakes;             // times in which something moves that is known beforehand; behind the gravity schedule
   float sleepLength;      // m, the longest wave that the fluid can have, over 2
-  float kinematicViscosity;  // m^2/s
+  float kinematicViscosity;  // m^2/s; the largest of several fluids
   uint regionsX, regionsY, regionsZ;  // that fall asleep on their own, a dimension; 0: none do
+  // Of several fluids: 1 over a particle's mass, and viscosity, over those of the densest and of the most viscous one.
+  float inverseMass0, inverseMass1, inverseMass2, inverseMass3, inverseMass4, inverseMass5, inverseMass6, inverseMass7;
+  float viscosity0, viscosity1, viscosity2, viscosity3, viscosity4, viscosity5, viscosity6, viscosity7;
 };
 
 // Phases of the solver; the two before time begins need no step in time.
@@ -245,10 +248,11 @@ struct ControlPush {
 // Sums over one workgroup of measure_sums.comp.
 struct MeasurePartial {
   float compression, compressionMax;   // fraction of rest density
-  float kinetic;                       // sum of v^2
   float speedMax;                      // m/s
-  float velocityX, velocityY, velocityZ;
-  float positionX, positionY, positionZ;
+  float mass;                          // sum over active particles, as the next ones, in units of FluidParams::particleMass
+  float kinetic;                       // of mass times v^2
+  float velocityX, velocityY, velocityZ;  // of mass times velocity
+  float positionX, positionY, positionZ;  // of mass times position
   uint outside;
   uint inactive;                         // outside, and in no other figure
 };
@@ -256,6 +260,15 @@ RILL_CONST uint kMeasureFirst = 107u << 9;          // bin 0: |C| = 2^-20, by th
 RILL_CONST uint kMeasureBins = 23u << 9;            // up to 8, 512 bins an octave
 RILL_CONST uint kMeasurePartials = 32u;               // workgroups that add up, at most
 RILL_CONST uint kMeasureShare = 64u;                  // particles of an invocation, while there are fewer
+
+// Of one of several fluids, by measure_fluids.comp; integers, so that their order does not matter.
+struct FluidFigureRecord {
+  uint particles;            // active ones
+  uint inactive;
+  uint errorLow, errorHigh;  // 64-bit sum of compression in units of kErrorUnit
+  uint errorMax;             // bits of the largest compression
+};
+RILL_CONST float kMaxFigureError = 100.0f;  // compression of a particle, at most, in these
 
 // What measure_reduce.comp finds, for the host.
 struct MeasureResult {

@@ -75,6 +75,7 @@ ParticleSet Trial::particles() const {
   for (const glm::dvec3& p : x) set.positions.push_back(narrow(p));
   for (const glm::dvec3& p : v) set.velocities.push_back(narrow(p));
   set.velocities.resize(set.positions.size());
+  set.fluids = fluids;
   return set;
 }
 
@@ -176,6 +177,7 @@ std::string firstDifference(const FluidSnapshot& a, const FluidSnapshot& b) {
   compare("id", a.id, b.id);
   compare("position", a.position, b.position);
   compare("velocity", a.velocity, b.velocity);
+  compare("fluid", a.fluid, b.fluid);
   compare("warmAcceleration", a.warmAcceleration, b.warmAcceleration);
   compare("warmStart", a.warmStart, b.warmStart);
   compare("rest", a.rest, b.rest);
@@ -208,6 +210,7 @@ double Snapshot::fastest() const {
 
 Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), rounded(trial.x), rounded(trial.v)) {
   const FluidParams p = setupOf(trial).params;
+  std::ranges::copy(trial.fluids, solver_.state.fluid.begin());
   if (trial.settle && p.initialPressureIterations > 0)
     solver_.solveInitialPressure(p.initialPressureStep, p.initialPressureMomentum, static_cast<int>(p.initialPressureIterations));
   solver_.begin(trial.step);

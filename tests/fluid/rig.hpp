@@ -26,6 +26,7 @@ struct Trial {
   Scene scene;
   Double3 origin = {0, 0, 0};    ///< m
   std::vector<glm::dvec3> x, v;  ///< m and m/s, relative to the origin; `v` may be empty: at rest
+  std::vector<uint8_t> fluids;   ///< of the particles; empty: all of the first
   double step = 1e-3;            ///< s
   Gather gather = Gather::Texel;
   std::vector<BodyPull> pulls = {};  ///< of every advance

@@ -190,6 +190,13 @@ struct FluidProgress {
   bool asleep = false;       ///< the fluid is at rest and takes no substeps (solver.sleep)
 };
 
+/// Figures of one of the scene's fluids.
+struct FluidFigures {
+  uint64_t particles = 0;                            ///< active ones
+  FluidLedger ledger = {};                           ///< `full` and `outOfIds` are those of all
+  double densityErrorMean = 0, densityErrorMax = 0;  ///< max(rho / rho0 - 1, 0)
+};
+
 /// Sums over the bodies of a scene.
 struct BodyFigures {
   double kinetic_J = 0, potential_J = 0;  ///< potential: 0 at the origin, as that of the fluid
@@ -202,10 +209,11 @@ struct FluidStats {
   double time_s = 0;       ///< simulated time
   uint64_t particles = 0;  ///< active ones; in a scene in which none come or go, inactive ones too
   FluidLedger ledger = {};
-  double emitterBlocked_s = 0;  ///< since the start, in which some emitter had no place for its particles
-  uint32_t substeps = 0;        ///< in the last advance
-  uint32_t iterations = 0;      ///< Jacobi iterations in the last advance, summed over substeps
-  double timeDropped_s = 0;     ///< in the last advance
+  std::vector<FluidFigures> fluids = {};  ///< in the order of resolvedFluids(), which it has as many as
+  double emitterBlocked_s = 0;            ///< since the start, in which some emitter had no place for its particles
+  uint32_t substeps = 0;                  ///< in the last advance
+  uint32_t iterations = 0;                ///< Jacobi iterations in the last advance, summed over substeps
+  double timeDropped_s = 0;               ///< in the last advance
   double densityErrorMean = 0, densityErrorP99 = 0, densityErrorMax = 0;  ///< max(rho / rho0 - 1, 0)
   double densitySignedMedian = 0;  ///< median of rho / rho0 - 1 over particles with a full neighborhood
   double kinetic_J = 0, potential_J = 0;

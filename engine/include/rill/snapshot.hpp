@@ -52,6 +52,7 @@ struct FluidSnapshot {
   /// or if all are awake.
   std::vector<uint32_t> regions = {};
   std::vector<Float3> position = {}, velocity = {};  ///< m, m/s
+  std::vector<uint8_t> fluid = {};                   ///< index among the scene's fluids; empty if it has one
   // Warm start; empty without one.
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
   std::vector<float> warmStart = {};          ///< multipliers, m^2

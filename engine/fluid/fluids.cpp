@@ -1,0 +1,61 @@
+#include "fluid/fluids.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "fluid/numbers.hpp"
+#include "fluid/settings.hpp"
+
+namespace rill {
+
+static_assert(kFluidLedgers == kMaxFluids);
+
+namespace {
+
+template <class Value>
+double largestOf(const Scene& scene, Value&& value) {
+  double largest = 0;
+  for (const ResolvedFluid& fluid : resolvedFluids(scene)) largest = std::max(largest, value(fluid));
+  return largest;
+}
+
+double kinematic(const ResolvedFluid& fluid) { return fluid.viscosity / fluid.density; }
+
+constexpr std::array<float FluidParams::*, kMaxFluids> kInverseMasses{
+    &FluidParams::inverseMass0, &FluidParams::inverseMass1, &FluidParams::inverseMass2, &FluidParams::inverseMass3,
+    &FluidParams::inverseMass4, &FluidParams::inverseMass5, &FluidParams::inverseMass6, &FluidParams::inverseMass7};
+constexpr std::array<float FluidParams::*, kMaxFluids> kViscosities{
+    &FluidParams::viscosity0, &FluidParams::viscosity1, &FluidParams::viscosity2, &FluidParams::viscosity3,
+    &FluidParams::viscosity4, &FluidParams::viscosity5, &FluidParams::viscosity6, &FluidParams::viscosity7};
+
+}  // namespace
+
+double densestFluid(const Scene& scene) {
+  return largestOf(scene, [](const ResolvedFluid& fluid) { return fluid.density; });
+}
+
+double largestViscosity(const Scene& scene) {
+  return largestOf(scene, [](const ResolvedFluid& fluid) { return fluid.viscosity; });
+}
+
+double largestKinematicViscosity(const Scene& scene) { return largestOf(scene, kinematic); }
+
+double smallestKinematicViscosity(const Scene& scene) { return kinematic(std::ranges::min(resolvedFluids(scene), {}, kinematic)); }
+
+double fastestViscosity(const Scene& scene) {
+  const double viscosity = largestViscosity(scene);
+  return viscosity > 0 ? largestKinematicViscosity(scene) * densestFluid(scene) / viscosity : 0;
+}
+
+void addFluids(const Scene& scene, FluidSetup& setup) {
+  if (scene.fluids.size() < 2) return;
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  const double densest = densestFluid(scene), viscosity = largestViscosity(scene);
+  setup.fluids = static_cast<uint32_t>(fluids.size());
+  for (size_t k = 0; k < fluids.size(); ++k) {
+    setup.params.*kInverseMasses[k] = f(densest / fluids[k].density);
+    setup.params.*kViscosities[k] = viscosity > 0 ? f(fluids[k].viscosity / viscosity) : 0;
+  }
+}
+
+}  // namespace rill

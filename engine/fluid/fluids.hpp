@@ -1,0 +1,21 @@
+#pragma once
+// Several fluids, as the solver sees them: masses and viscosities over the largest ones.
+#include "rill/scene.hpp"
+
+namespace rill {
+
+struct FluidSetup;
+
+double densestFluid(const Scene& scene);                ///< kg/m^3
+double largestViscosity(const Scene& scene);            ///< Pa s
+double largestKinematicViscosity(const Scene& scene);   ///< m^2/s
+double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s
+
+/// The largest product of a fluid's inverse mass and viscosity, each over that of the densest and of the most viscous fluid. At least 1
+/// with one viscous fluid; it multiplies FluidParams::viscosityRate.
+double fastestViscosity(const Scene& scene);
+
+/// Sets what shaders need of several fluids. With one there is nothing.
+void addFluids(const Scene& scene, FluidSetup& setup);
+
+}  // namespace rill

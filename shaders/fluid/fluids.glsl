@@ -1,0 +1,55 @@
+// Several fluids of one spacing, whose particles have different masses. A particle keeps the index of its fluid in w of its position. For
+// passes over neighbors the last bits of its prediction's w, and of its place in `work`, repeat it.
+// FLUIDS: the scene has several; else all of this is as if it were not there. Needs `params`.
+#ifndef RILL_FLUIDS_GLSL
+#define RILL_FLUIDS_GLSL
+const uint kFluidBits = 7u;
+const float kLeastTagged = 1.0e-30;  // the bits of 0 would make a denormal number
+
+// Of a position.
+uint fluidOf(vec4 position) { return FLUIDS ? uint(position.w) : 0u; }
+
+// w of a position.
+float storedFluid(uint fluid) { return FLUIDS ? float(fluid) : 0.0; }
+
+// w of a prediction: a number with the index of a fluid.
+float withFluid(float number, uint fluid) {
+  if (!FLUIDS) return number;
+  float normal = abs(number) < kLeastTagged ? kLeastTagged : number;
+  return uintBitsToFloat((floatBitsToUint(normal) & ~kFluidBits) | fluid);
+}
+float withoutFluid(float number) { return FLUIDS && abs(number) < 2.0 * kLeastTagged ? 0.0 : number; }
+
+// The first words of `work`: a place with a bit of the index in the last bit of each coordinate. As words, since 0 may become denormal.
+uvec3 placeWithFluid(vec3 place, uint fluid) {
+  uvec3 bits = floatBitsToUint(place);
+  return FLUIDS ? (bits & ~1u) | (uvec3(fluid, fluid >> 1, fluid >> 2) & 1u) : bits;
+}
+
+// Of the w of a prediction, or of `work`.
+uint fluidOf(float number) { return FLUIDS ? floatBitsToUint(number) & kFluidBits : 0u; }
+uint fluidOf(uvec4 particle) { return FLUIDS ? (particle.x & 1u) | (particle.y & 1u) << 1 | (particle.z & 1u) << 2 : 0u; }
+
+// Of a particle of this fluid, over that of one of the densest.
+float inverseMassOf(uint fluid) {
+  if (!FLUIDS) return 1.0;
+  vec4 first = vec4(params.inverseMass0, params.inverseMass1, params.inverseMass2, params.inverseMass3);
+  vec4 others = vec4(params.inverseMass4, params.inverseMass5, params.inverseMass6, params.inverseMass7);
+  return fluid < 4u ? first[fluid] : others[fluid & 3u];
+}
+
+// Viscosity over that of the most viscous fluid.
+float viscosityOf(uint fluid) {
+  if (!FLUIDS) return 1.0;
+  vec4 first = vec4(params.viscosity0, params.viscosity1, params.viscosity2, params.viscosity3);
+  vec4 others = vec4(params.viscosity4, params.viscosity5, params.viscosity6, params.viscosity7);
+  return fluid < 4u ? first[fluid] : others[fluid & 3u];
+}
+
+// Of a pair of particles: the harmonic mean, by which the shear stress is continuous.
+float pairViscosity(uint a, uint b) {
+  if (!FLUIDS) return 1.0;
+  float one = viscosityOf(a), other = viscosityOf(b);
+  return 2.0 * one * other / max(one + other, 1.0e-20);
+}
+#endif
