@@ -94,7 +94,8 @@ std::vector<Emitter> emittersOf(const Scene& scene) {
   all.push_back({.name = "inflow",
                  .mouth = RectMouth{center, {domain.max[across] - domain.min[across], inflow.level}, normal, {0, 1, 0}},
                  .flow = inflow.flow,
-                 .speed = inflow.speed});
+                 .speed = inflow.speed,
+                 .fluid = inflow.fluid});
   return all;
 }
 

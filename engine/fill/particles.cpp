@@ -110,8 +110,8 @@ class Placer {
   Placer(const Scene& scene, ParticleSet& out, PointHash* placed)
       : scene_(scene), out_(out), solids_(scene.solids, scene.fluid.spacing), placed_(placed), spacing_(scene.fluid.spacing) {}
 
-  /// `p`: position in scene coordinates, m. `number`: index within the fill.
-  void add(const Double3& p, const Float3& velocity, size_t fill, uint64_t number, Source& source) {
+  /// `p`: position in scene coordinates, m. `number`: index within the fill. `fluid`: index among the scene's fluids.
+  void add(const Double3& p, const Float3& velocity, size_t fill, uint64_t number, uint8_t fluid, Source& source) {
     const double jitter = scene_.fill[fill].jitter * spacing_;
     Double3 at, lattice;
     for (int axis = 0; axis < 3; ++axis) {
@@ -130,6 +130,7 @@ class Placer {
       ++source.kept;
       out_.positions.push_back(relative(at));
       out_.velocities.push_back(velocity);
+      if (!scene_.fluids.empty()) out_.fluids.push_back(fluid);
     }
   }
 
@@ -157,12 +158,14 @@ class Placer {
 void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer) {
   const Fill& fill = scene.fill[index];
   const Float3 velocity{static_cast<float>(fill.velocity[0]), static_cast<float>(fill.velocity[1]), static_cast<float>(fill.velocity[2])};
+  const auto fluid = static_cast<uint8_t>(fluidIndex(scene, fill.fluid));
   if (source.file) {
     const PlyParticles& from = source.particles;
     for (size_t i = 0; i < from.positions.size(); ++i) {
       const Float3 own = from.velocities.empty() ? Float3{} : from.velocities[i];
       placer.add({from.positions[i].x, from.positions[i].y, from.positions[i].z},
-                 {own.x + velocity.x, own.y + velocity.y, own.z + velocity.z}, index, i, source);
+                 {own.x + velocity.x, own.y + velocity.y, own.z + velocity.z}, index, i, from.fluids.empty() ? fluid : from.fluids[i],
+                 source);
     }
     return;
   }
@@ -176,7 +179,7 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
           const Double3 p = {lattice.first[0] + static_cast<double>(i) * lattice.spacing,
                              lattice.first[1] + static_cast<double>(j) * lattice.spacing,
                              lattice.first[2] + static_cast<double>(k) * lattice.spacing};
-          placer.add(p, velocity, index, (k * ny + j) * nx + i, source);
+          placer.add(p, velocity, index, (k * ny + j) * nx + i, fluid, source);
         }
       }
     }
@@ -304,6 +307,7 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
   const auto expected = static_cast<uint64_t>(total);
   set.positions.reserve(expected);
   set.velocities.reserve(expected);
+  if (!scene.fluids.empty()) set.fluids.reserve(expected);
   std::optional<PointHash> placed;
   if (mayOverlap(sources, bounds, kOverlap * spacing)) placed.emplace(kOverlap * spacing, expected);
   Placer placer(scene, set, placed ? &*placed : nullptr);
@@ -384,7 +388,7 @@ Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   for (size_t i = 0; i < sources.size(); ++i) {
     const auto* particles = std::get_if<ParticleFile>(&scene.fill[i].shape);
     if (particles == nullptr) continue;
-    auto file = PlyFile::open(particles->file);
+    auto file = PlyFile::open(particles->file, scene.fill[i].fluid.empty() ? scene.fluids.size() : 0);
     if (!file) return aboutFile(scene, i, file.error());
     sources[i].count = static_cast<double>(file->count());
     sources[i].file = std::move(*file);

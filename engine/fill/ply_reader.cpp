@@ -1,6 +1,8 @@
 #include "fill/ply_reader.hpp"
 
 #include <array>
+#include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,9 +13,11 @@
 namespace rill {
 
 struct PlyFile::Header : ply::Header {
-  std::array<int, 6> column{};  ///< index of x y z vx vy vz among the properties of a vertex; -1: missing
+  std::array<int, 7> column{};  ///< index of x y z vx vy vz fluid among the properties of a vertex; -1: missing, or not read
+  size_t fluids = 0;
 
   bool hasVelocity() const { return column[3] >= 0 && column[4] >= 0 && column[5] >= 0; }
+  bool hasFluid() const { return column[6] >= 0; }
 };
 
 PlyFile::PlyFile(std::unique_ptr<Header> header) : header_(std::move(header)) {}
@@ -23,14 +27,18 @@ PlyFile::~PlyFile() = default;
 
 uint64_t PlyFile::count() const { return header_->elements.back().count; }
 
-Expected<PlyFile> PlyFile::open(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "vx", "vy", "vz"};
+Expected<PlyFile> PlyFile::open(const std::filesystem::path& file, size_t fluids) {
+  constexpr std::array<std::string_view, 7> kNames{"x", "y", "z", "vx", "vy", "vz", "fluid"};
   auto read = ply::readHeader(file, "vertex");
   if (!read) return read.error();
-  auto header = std::make_unique<Header>(Header{std::move(*read), {}});
+  auto header = std::make_unique<Header>(Header{std::move(*read), {}, fluids});
   if (header->elements.empty() || header->elements.back().name != "vertex")
     return header->badInput("the header has no vertex element; expected one with x, y and z");
-  if (auto ok = header->findColumns(header->elements.back(), kNames, header->column); !ok) return ok.error();
+  header->column.back() = -1;
+  const size_t columns = fluids > 0 ? kNames.size() : kNames.size() - 1;
+  if (auto ok = header->findColumns(header->elements.back(), std::span(kNames).first(columns), std::span(header->column).first(columns));
+      !ok)
+    return ok.error();
   if (auto ok = header->checkCounts(); !ok) return ok.error();
   return PlyFile(std::move(header));
 }
@@ -46,6 +54,7 @@ Expected<PlyParticles> PlyFile::read() const {
     if (element.properties.empty()) continue;
     if (vertex) out.positions.reserve(element.count);
     if (vertex && header.hasVelocity()) out.velocities.reserve(element.count);
+    if (vertex && header.hasFluid()) out.fluids.reserve(element.count);
     for (uint64_t i = 0; i < element.count; ++i) {
       if (auto ok = body.read(element, i, row); !ok) return ok.error();
       if (!vertex) continue;
@@ -59,6 +68,14 @@ Expected<PlyParticles> PlyFile::read() const {
       }
       out.positions.push_back({at(0), at(1), at(2)});
       if (header.hasVelocity()) out.velocities.push_back({static_cast<float>(at(3)), static_cast<float>(at(4)), static_cast<float>(at(5))});
+      if (!header.hasFluid()) continue;
+      const double fluid = at(6);
+      if (!(fluid >= 0 && fluid < static_cast<double>(header.fluids)) || fluid != std::floor(fluid)) {
+        return header.badInput("vertex " + grouped(i) + ", property \"fluid\": found " + shortestNumber(fluid) +
+                               ", expected the index of one of the scene's fluids, a whole number from 0 to " +
+                               std::to_string(header.fluids - 1));
+      }
+      out.fluids.push_back(static_cast<uint8_t>(fluid));
     }
   }
   return out;

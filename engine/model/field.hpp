@@ -41,6 +41,7 @@ struct Info {
   bool required = false;                         ///< the key must be given
   size_t most = 0;                               ///< largest number of entries of a list; 0: unlimited
   std::string_view since = {};                   ///< version that a scene must ask for to use the key; empty: any
+  std::string_view parts = "[x, y, z]";          ///< of a vector of three, as messages show them
   std::string_view unset = "auto";               ///< value that leaves an optional number empty; "": leaving out the key alone does
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 // The table of scene keys: parser, JSON Schema, --set, the documented key table and the viewer's sliders are derived from it by
-// forEachField<FluidSettings>(...). Rows of `fluid` and `solver` are in fluid_fields.hpp, those of `emitters` and `drains` in
+// forEachField<FluidSettings>(...). Rows of `fluid`, `fluids` and `solver` are in fluid_fields.hpp, those of `emitters` and `drains` in
 // flow_fields.hpp, those of `look` in look_fields.hpp. Defaults are the member initializers in rill/scene.hpp.
 #include <array>
 #include <filesystem>
@@ -111,7 +111,11 @@ struct Table<Fill> {
                  .range = between(0, 0.5),
                  .help = "largest random offset along each axis, as a fraction of the spacing; drawn from the scene's seed. Breaks the "
                          "symmetry of the lattice"},
-            &Fill::jitter}};
+            &Fill::jitter},
+      Field{Info{.key = "fluid",
+                 .help = "name of one of fluids; without it, the first, or that of each particle of a file (property uchar fluid)",
+                 .since = "0.2"},
+            &Fill::fluid}};
 };
 
 template <>
@@ -251,6 +255,11 @@ struct Table<Scene> {
             &Scene::gravity_changes},
       Field{Info{.key = "domain", .help = "walls of the simulated space; without it space is unbounded"}, &Scene::domain},
       Field{Info{.key = "fluid", .help = "material and resolution of the fluid", .required = true}, &Scene::fluid},
+      Field{Info{.key = "fluids",
+                 .help = "several fluids, which share the keys of fluid but for those given here; without it, one",
+                 .most = kMaxFluids,
+                 .since = "0.2"},
+            &Scene::fluids},
       Field{Info{.key = "solver", .help = "accuracy and cost of the solver"}, &Scene::solver},
       Field{Info{.key = "fill", .help = "initial fluid; without it the scene is empty"}, &Scene::fill},
       Field{Info{.key = "solids", .help = "solids that the fluid flows around", .most = 4096}, &Scene::solids},

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of the keys `fluid` and `solver`, for the table of fields.hpp.
+// The rows of the keys `fluid`, `fluids` and `solver`, for the table of fields.hpp.
 #include <array>
 
 #include "model/field.hpp"
@@ -67,6 +67,27 @@ struct Table<FluidSettings> {
                          "emitters add in the scene's duration",
                  .since = "0.2"},
             &FluidSettings::capacity}};
+};
+
+template <>
+struct Table<FluidMaterial> {
+  static constexpr std::string_view about = "One of several fluids";
+  static constexpr std::array one_of = kNoWords;
+  static constexpr std::tuple fields{
+      Field{Info{.key = "name", .help = "name of the fluid; unique, not empty", .required = true}, &FluidMaterial::name},
+      Field{Info{.key = "density", .unit = "kg/m^3", .range = above(0), .help = "rest density; without it, fluid.density", .unset = ""},
+            &FluidMaterial::density},
+      Field{Info{.key = "viscosity",
+                 .unit = "Pa s",
+                 .range = atLeast(0),
+                 .help = "dynamic viscosity; without it, fluid.viscosity",
+                 .unset = ""},
+            &FluidMaterial::viscosity},
+      Field{Info{.key = "color",
+                 .range = between(0, 1),
+                 .help = "part of the light that 10 cm of the fluid let through, linear [red, green, blue]; without it, that of the look",
+                 .parts = "[red, green, blue]"},
+            &FluidMaterial::color}};
 };
 
 template <>

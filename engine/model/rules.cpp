@@ -1,12 +1,10 @@
-#include "model/rules.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <unordered_map>
 
 #include "core/words.hpp"
+#include "model/name_rules.hpp"
 
 namespace rill::model {
 namespace {
@@ -35,33 +33,6 @@ CheckResult increasingTimes(const std::vector<Timed>& entries) {
                  {memberPath(elementPath("", i), "at"), memberPath(elementPath("", i - 1), "at")}};
   }
   return {};
-}
-
-/// `list`: the key of the entries. Unless names are `required`, some may be empty.
-template <class Named>
-CheckResult uniqueNames(const std::vector<Named>& entries, std::string_view list, bool required) {
-  std::unordered_map<std::string_view, size_t> seen;
-  for (size_t i = 0; i < entries.size(); ++i) {
-    const std::string& name = entries[i].name;
-    const std::string here = memberPath(elementPath("", i), "name");
-    if (name.empty() && !required) continue;
-    if (name.empty()) return Fault{"found an empty name, expected a unique name", {here}};
-    const auto [first, fresh] = seen.emplace(name, i);
-    if (!fresh)
-      return Fault{inQuotes(name) + " is also the name of " + elementPath(list, first->second) + "; expected unique names", {here}};
-  }
-  return {};
-}
-
-/// `known`: all names of that kind. `path`: of the key that names one.
-CheckResult knownName(const std::string& wanted, const std::vector<std::string_view>& known, const std::string& kind,
-                      const std::string& one, const std::string& path) {
-  if (std::ranges::find(known, wanted) != known.end()) return {};
-  const std::string_view suggestion = nearestWord(wanted, known);
-  return Fault{"no " + kind + " is named " + inQuotes(wanted) + "; expected " +
-                   (known.empty() ? "the name of " + one + ", but no " + kind + " has one" : "one of " + quotedList(known)) +
-                   (suggestion.empty() ? "" : "; did you mean " + inQuotes(suggestion) + "?"),
-               {path}};
 }
 
 CheckResult unitQuaternion(const Quaternion& parts, std::string_view key) {
@@ -153,14 +124,6 @@ CheckResult checkRules(const Domain& domain) {
   return checkSides(domain);
 }
 
-CheckResult checkRules(const FluidSettings& fluid) {
-  if (fluid.spacing <= 0) return {};
-  const double mass = fluid.density * fluid.spacing * fluid.spacing * fluid.spacing;
-  if (mass >= std::numeric_limits<float>::min() && mass <= std::numeric_limits<float>::max()) return {};
-  return Fault{"the mass of a particle, density x spacing^3, is " + roundedNumber(mass) + " kg; expected a mass that fits a 32-bit float",
-               {"spacing", "density"}};
-}
-
 CheckResult checkRules(const MeshShape& shape) {
   if (!shape.mesh) return Fault{"found no mesh; expected one of Mesh::create(), or a file that loadScene() reads", {"mesh"}};
   if (shape.mesh->twoSided() != shape.two_sided)
@@ -217,8 +180,9 @@ CheckResult checkRules(const std::vector<GravityChange>& changes) { return incre
 
 CheckResult checkRules(const std::vector<Probe>& probes) { return uniqueNames(probes, "probes", true); }
 
-// What probes name exists, and names of emitters and drains are unique.
+// What fluids, fills, emitters and probes name exists, and names of emitters and drains are unique.
 CheckResult checkRules(const Scene& scene) {
+  if (CheckResult fault = checkFluids(scene)) return fault;
   std::vector<std::string_view> solids, flows;
   for (const Solid& solid : scene.solids)
     if (!solid.name.empty()) solids.push_back(solid.name);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/words.hpp"
+#include "model/fields.hpp"
 
 namespace rill {
 namespace {
@@ -21,7 +22,7 @@ Error invalidOverride(const Override& change, const std::string& why) { return {
 
 Expected<std::vector<Step>> stepsOf(const Override& change) {
   const auto malformed = [&](const std::string& what) {
-    return invalidOverride(change, what + "; expected a key path such as fluid.viscosity or fill[0].jitter");
+    return invalidOverride(change, what + "; expected a key path such as fluid.viscosity, fill[0].jitter or fluids.oil.density");
   };
   std::vector<Step> steps;
   std::string_view rest = change.key;
@@ -69,7 +70,33 @@ Expected<Json> valueOf(const Override& change) {
 
 std::string nameOf(const std::string& path) { return path.empty() ? std::string("the scene") : path; }
 
-/// The value at the path `steps`, created if it is missing.
+/// Whether `key` is that of a list at the top of a scene.
+bool isSceneList(std::string_view key) {
+  bool list = false;
+  model::forEachField<Scene>([&](const auto& field) {
+    using Value = typename std::remove_cvref_t<decltype(field)>::Value;
+    list = list || (model::kIsList<Value> && field.info.key == key);
+  });
+  return list;
+}
+
+/// The index of the entry of `list` that has this name.
+Expected<size_t> entryNamed(const Json& list, const Override& change, const std::string& name, const std::string& path) {
+  std::vector<std::string_view> names;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const auto found = list[i].is_object() ? list[i].find("name") : list[i].end();
+    if (!list[i].is_object() || found == list[i].end() || !found->is_string()) continue;
+    names.push_back(found->get_ref<const std::string&>());
+    if (names.back() == name) return i;
+  }
+  const std::string_view suggestion = nearestWord(name, names);
+  return invalidOverride(change, "no entry of " + path + " is named " + inQuotes(name) + "; expected " +
+                                     (names.empty() ? "an index, as in " + elementPath(path, 0)
+                                                    : "one of " + quotedList(names) + ", or an index, as in " + elementPath(path, 0)) +
+                                     (suggestion.empty() ? "" : "; did you mean " + inQuotes(suggestion) + "?"));
+}
+
+/// The value at the path `steps`, created if it is missing. An entry of a list is given by its index or its name.
 Expected<Json*> walk(Json& root, const Override& change, const std::vector<Step>& steps, OverrideMarks& marks, std::string& path) {
   Json* node = &root;
   for (size_t i = 0; i < steps.size(); ++i) {
@@ -86,8 +113,16 @@ Expected<Json*> walk(Json& root, const Override& change, const std::vector<Step>
       if (fresh) node->push_back(nullptr);
       node = &(*node)[*step.index];
       path = elementPath(path, *step.index);
+    } else if (node->is_array()) {
+      const auto index = entryNamed(*node, change, step.key, path);
+      if (!index) return index.error();
+      node = &(*node)[*index];
+      path = elementPath(path, *index);
     } else {
       if (!node->is_object()) return invalidOverride(change, nameOf(path) + " is not an object; expected a key path of the scene");
+      if (i == 0 && steps.size() > 1 && !steps[1].index && !node->contains(step.key) && isSceneList(step.key))
+        return invalidOverride(change, "the scene has no " + inQuotes(step.key) + "; expected an index, as in " + elementPath(step.key, 0) +
+                                           " (which adds an entry)");
       const auto [entry, made] = node->emplace(step.key, nullptr);
       fresh = made;
       node = &*entry;

@@ -102,7 +102,7 @@ class Reader {
   }
   bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, Double3& out) {
-    return numbers(json, path, info, "[x, y, z]", out);
+    return numbers(json, path, info, info.parts, out);
   }
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<Double3>& out) {
     return value(json, path, info, out.emplace());

@@ -11,7 +11,7 @@
 namespace rill::test {
 
 /// All scenes of assets/scenes, one with the keys of pressure and of fluid that sticks, two with those of bodies,
-/// two with those of emitters and drains, and one with overrides.
+/// two with those of emitters and drains, one with several fluids, and one with overrides.
 inline std::vector<std::string> sceneSeeds() {
   std::vector<std::string> seeds;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(RILL_SOURCE_DIR) / "assets/scenes"))
@@ -40,6 +40,11 @@ inline std::vector<std::string> sceneSeeds() {
     "probes": [{"name": "in", "flow": "tap"}, {"name": "out", "flow": "plug"}]})";
   seeds.push_back(flows);
   seeds.push_back(flows + '\0' + "emitters[0].flow=0.1\ndrains[0].from=1\nemitters[1].rect.size=[1e3,1e-3]\nfluid.capacity=0\nfill=[]");
+  seeds.push_back(R"({"rill": "0.2", "domain": {"inflow": {"level": 0.5, "speed": 1, "fluid": "oil"}}, "fluid": {"spacing": 0.1},
+    "fluids": [{"name": "water", "color": [0, 0.5, 1]}, {"name": "oil", "density": 900, "viscosity": 0.05}],
+    "fill": [{"box": {"max": [1, 0.3, 1]}}, {"fluid": "oil", "box": {"min": [0, 0.3, 0], "max": [1, 0.5, 1]}}],
+    "emitters": [{"disc": {"center": [0.5, 0.9, 0.5], "radius": 0.15}, "flow": 0.002, "fluid": "oil"}]})" +
+                  std::string(1, '\0') + "fluids.oil.density=1200\nfluids[0].viscosity=3\nfill[0].fluid=oil");
   seeds.push_back(seeds.front() + '\0' + "fluid.viscosity=0.1\nsolver.time_step=auto\nfill[0].jitter=0.2\nprobes=[]");
   return seeds;
 }
@@ -56,6 +61,8 @@ inline std::vector<std::string> plySeeds() {
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float "
       "vy\n"
       "property float vz\nend_header\n0 0.5 1e-3 0 0 0\n-1 2 3 4 5 6\n",
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty uchar fluid\n"
+      "end_header\n0 0.5 1e-3 0\n-1 2 3 1\n",
       little, big};
 }
 

@@ -149,7 +149,7 @@ TEST(Overrides, ErrorsNameTheOverride) {
             "--set fill[5].jitter: fill has 1 entry in the scene; expected an index of at most 1 (one more adds an entry)");
   EXPECT_EQ(message("fluid[0]", "0"), "--set fluid[0]: fluid is not a list; expected a key without an index");
   EXPECT_EQ(message("fluid.spacing.x", "0"), "--set fluid.spacing.x: fluid.spacing is not an object; expected a key path of the scene");
-  const std::string path = "; expected a key path such as fluid.viscosity or fill[0].jitter";
+  const std::string path = "; expected a key path such as fluid.viscosity, fill[0].jitter or fluids.oil.density";
   EXPECT_EQ(message("fluid..x", "0"), "--set fluid..x: a key is empty" + path);
   EXPECT_EQ(message("fluid.", "0"), "--set fluid.: a key is empty" + path);
   EXPECT_EQ(message("fill[", "0"), "--set fill[: \"\" is not an index in brackets" + path);

@@ -36,6 +36,7 @@ struct Inflow {
   double level = 1;          ///< m above the floor, > 0, within the domain
   double flow = 0;           ///< m^3/s, > 0; 0 if `speed` is given
   double speed = 0;          ///< m/s, > 0: flow over width and level; 0 if `flow` is given
+  std::string fluid = {};    ///< name of one of Scene::fluids; empty: the first
 };
 
 /// A side of the domain that is a wall up to a level, as a weir. Particles that flow over it are removed and counted as left.

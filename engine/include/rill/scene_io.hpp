@@ -20,8 +20,8 @@
 
 namespace rill {
 
-/// Sets one value of a scene file. `key` is a path ("fluid.viscosity", "fill[0].jitter"), `value` is JSON or a bare word, which is read as
-/// a string. File names in `value` are relative to the current directory.
+/// Sets one value of a scene file. `key` is a path ("fluid.viscosity", "fill[0].jitter", or by an entry's name "fluids.oil.density"),
+/// `value` is JSON or a bare word, which is read as a string. File names in `value` are relative to the current directory.
 struct Override {
   std::string key = {}, value = {};
 };

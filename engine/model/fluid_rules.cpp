@@ -1,0 +1,50 @@
+// The rules of `fluid` and `fluids`, and of the keys that name a fluid.
+#include <limits>
+
+#include "model/name_rules.hpp"
+
+namespace rill::model {
+namespace {
+
+CheckResult fittingMass(double density, double spacing, std::vector<std::string> keys) {
+  const double mass = density * spacing * spacing * spacing;
+  if (mass >= std::numeric_limits<float>::min() && mass <= std::numeric_limits<float>::max()) return {};
+  return Fault{"the mass of a particle, density x spacing^3, is " + roundedNumber(mass) + " kg; expected a mass that fits a 32-bit float",
+               std::move(keys)};
+}
+
+/// `path`: of the object whose key `fluid` has the name.
+CheckResult knownFluid(const Scene& scene, const std::string& name, const std::string& path) {
+  if (name.empty()) return {};
+  const std::string key = memberPath(path, "fluid");
+  if (scene.fluids.empty())
+    return Fault{"found " + inQuotes(name) + ", but the scene has no \"fluids\"; expected a fluid of that name there, or no key", {key}};
+  std::vector<std::string_view> names;
+  for (const FluidMaterial& fluid : scene.fluids) names.push_back(fluid.name);
+  return knownName(name, names, "fluid", "a fluid", key);
+}
+
+}  // namespace
+
+CheckResult checkRules(const FluidSettings& fluid) {
+  if (fluid.spacing <= 0) return {};
+  return fittingMass(fluid.density, fluid.spacing, {"spacing", "density"});
+}
+
+CheckResult checkRules(const std::vector<FluidMaterial>& fluids) { return uniqueNames(fluids, "fluids", true); }
+
+CheckResult checkFluids(const Scene& scene) {
+  for (size_t i = 0; scene.fluid.spacing > 0 && i < scene.fluids.size(); ++i) {
+    const double density = scene.fluids[i].density.value_or(scene.fluid.density);
+    const std::string path = memberPath(elementPath("fluids", i), "density");
+    if (CheckResult fault = fittingMass(density, scene.fluid.spacing, {path, "fluid.spacing"})) return fault;
+  }
+  for (size_t i = 0; i < scene.fill.size(); ++i)
+    if (CheckResult fault = knownFluid(scene, scene.fill[i].fluid, elementPath("fill", i))) return fault;
+  for (size_t i = 0; i < scene.emitters.size(); ++i)
+    if (CheckResult fault = knownFluid(scene, scene.emitters[i].fluid, elementPath("emitters", i))) return fault;
+  if (!scene.domain || !scene.domain->inflow) return {};
+  return knownFluid(scene, scene.domain->inflow->fluid, "domain.inflow");
+}
+
+}  // namespace rill::model

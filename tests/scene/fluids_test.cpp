@@ -1,0 +1,254 @@
+// Scenes with several fluids: their keys, what is refused, and the fluid of each particle.
+#include "fill/mouth.hpp"
+#include "support.hpp"
+
+namespace rill::test {
+namespace {
+
+const std::string kTwoFluids =
+    R"("fluids": [{"name": "water"}, {"name": "oil", "density": 900, "viscosity": 0.05, "color": [0.8, 0.6, 0.1]}])";
+
+std::string fluidScene(const std::string& keys) {
+  return R"({"rill": "0.2", "fluid": {"spacing": 0.1, "density": 998, "viscosity": 0.001}, )" + keys + "}";
+}
+
+/// A scene with one oil whose other keys are these.
+std::string withOil(const std::string& keys) { return fluidScene(R"("fluids": [{"name": "oil", )" + keys + "}]"); }
+
+void expectFluidRefusals(const std::vector<std::pair<std::string, std::string>>& cases) {
+  for (const auto& [text, message] : cases) EXPECT_EQ(parseError(text), "dam.json: " + message) << text;
+}
+
+TEST(FluidsScene, ReadsMaterialsAndTakesMissingKeysFromFluid) {
+  const Scene s = scene(fluidScene(kTwoFluids + R"(, "fill": [{"box": {}}, {"sphere": {}, "fluid": "oil"}])"));
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(s);
+  ASSERT_EQ(fluids.size(), 2U);
+  EXPECT_EQ(fluids[0].name, "water");
+  EXPECT_EQ(fluids[0].density, 998);
+  EXPECT_EQ(fluids[0].viscosity, 0.001);
+  EXPECT_FALSE(fluids[0].color);
+  EXPECT_EQ(fluids[1].name, "oil");
+  EXPECT_EQ(fluids[1].density, 900);
+  EXPECT_EQ(fluids[1].viscosity, 0.05);
+  EXPECT_EQ(fluids[1].color, (Double3{0.8, 0.6, 0.1}));
+  EXPECT_EQ(fluidIndex(s, s.fill[0].fluid), 0U);
+  EXPECT_EQ(fluidIndex(s, s.fill[1].fluid), 1U);
+  EXPECT_EQ(fluidIndex(s, "tar"), kMaxFluids);
+}
+
+TEST(FluidsScene, WithoutFluidsHasOneOfTheMaterialOfFluid) {
+  const Scene s = scene(fluidScene(R"("fluids": [])"));
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(s);
+  ASSERT_EQ(fluids.size(), 1U);
+  EXPECT_EQ(fluids[0].name, "fluid");
+  EXPECT_EQ(fluids[0].density, 998);
+}
+
+TEST(FluidsScene, EmittersAndInflowHaveAFluid) {
+  const Scene s = scene(fluidScene(kTwoFluids + R"(, "emitters": [{"disc": {}, "flow": 1, "fluid": "oil"}, {"disc": {}, "flow": 1}],
+    "domain": {"inflow": {"level": 0.5, "speed": 1, "fluid": "oil"}})"));
+  const std::vector<Emitter> all = emittersOf(s);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(fluidIndex(s, all[0].fluid), 1U);
+  EXPECT_EQ(fluidIndex(s, all[1].fluid), 0U);
+  EXPECT_EQ(fluidIndex(s, all[2].fluid), 1U) << "the inflow";
+}
+
+TEST(FluidsScene, RejectsInvalidMaterialsNamingTheKey) {
+  EXPECT_EQ(parseError(withOil(R"("viscosity": 0, "color": [0, 1, 0.5])")), "accepted");
+  expectFluidRefusals({
+      {fluidScene(R"("fluids": [{"name": "oil"}, {"name": "oil"}])"),
+       "fluids[1].name: \"oil\" is also the name of fluids[0]; expected unique names"},
+      {fluidScene(R"("fluids": [{"density": 900}])"), "fluids[0].name: required key is missing: name of the fluid; unique, not empty"},
+      {fluidScene(R"("fluids": [{"name": ""}])"), "fluids[0].name: found an empty name, expected a unique name"},
+      {withOil(R"("density": 0)"), "fluids[0].density: 0 is out of range; expected a number above 0 (kg/m^3)"},
+      {withOil(R"("density": -900)"), "fluids[0].density: -900 is out of range; expected a number above 0 (kg/m^3)"},
+      {withOil(R"("density": "auto")"), "fluids[0].density: found the string \"auto\", expected a number above 0 (kg/m^3)"},
+      {withOil(R"("density": 1e-36)"),
+       "fluids[0].density: the mass of a particle, density x spacing^3, is 1e-39 kg; expected a mass that fits a 32-bit float"},
+      {withOil(R"("viscosity": -0.1)"), "fluids[0].viscosity: -0.1 is out of range; expected a number of at least 0 (Pa s)"},
+      {withOil(R"("color": [0, 1.5, 0])"), "fluids[0].color[1]: 1.5 is out of range; expected a number from 0 to 1"},
+      {withOil(R"("color": [0, 1, -0.5])"), "fluids[0].color[2]: -0.5 is out of range; expected a number from 0 to 1"},
+      {withOil(R"("color": [0, 1])"), "fluids[0].color: found an array of length 2, expected 3 numbers [red, green, blue]"},
+      {withOil(R"("spacing": 0.1)"), "fluids[0].spacing: unknown key; did you mean \"fluid.spacing\"?"},
+      {withOil(R"("densty": 900)"), "fluids[0].densty: unknown key; did you mean \"density\"?"},
+      {fluidScene(R"("fluids": {"oil": {}})"), "fluids: found an object, expected a list of objects"},
+  });
+}
+
+TEST(FluidsScene, RejectsMoreThanEight) {
+  std::string list;
+  for (int i = 0; i < 8; ++i) list += R"({"name": "fluid )" + std::to_string(i) + "\"},";
+  EXPECT_EQ(parseError(fluidScene("\"fluids\": [" + list.substr(0, list.size() - 1) + "]")), "accepted");
+  EXPECT_EQ(parseError(fluidScene("\"fluids\": [" + list + R"({"name": "ninth"}])")),
+            "dam.json: fluids: found 9 entries, expected at most 8");
+}
+
+TEST(FluidsScene, RejectsUnknownFluids) {
+  const std::string one = "; expected one of \"water\", \"oil\"", oil = "; did you mean \"oil\"?";
+  const std::string tap = R"("emitters": [{"disc": {}, "flow": 1, "fluid": "oli"}])";
+  const std::string none = ", but the scene has no \"fluids\"; expected a fluid of that name there, or no key";
+  expectFluidRefusals({
+      {fluidScene(kTwoFluids + R"(, "fill": [{"box": {}}, {"box": {}, "fluid": "oli"}])"),
+       "fill[1].fluid: no fluid is named \"oli\"" + one + oil},
+      {fluidScene(kTwoFluids + R"(, "fill": [{"box": {}, "fluid": "mercury"}])"), "fill[0].fluid: no fluid is named \"mercury\"" + one},
+      {fluidScene(kTwoFluids + ", " + tap), "emitters[0].fluid: no fluid is named \"oli\"" + one + oil},
+      {fluidScene(kTwoFluids + R"(, "domain": {"inflow": {"level": 0.5, "speed": 1, "fluid": "Water"}})"),
+       "domain.inflow.fluid: no fluid is named \"Water\"" + one + "; did you mean \"water\"?"},
+      {fluidScene(R"("fill": [{"box": {}, "fluid": "oil"}])"), "fill[0].fluid: found \"oil\"" + none},
+      {fluidScene(tap), "emitters[0].fluid: found \"oli\"" + none},
+      {fluidScene(kTwoFluids + R"(, "fill": [{"box": {}, "fluid": 1}])"), "fill[0].fluid: found 1, expected a string"},
+  });
+}
+
+TEST(FluidsScene, KeysNeedVersion02) {
+  const std::string needs = ": the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"";
+  EXPECT_EQ(parseError(with(kTwoFluids)), "dam.json: fluids" + needs);
+  EXPECT_EQ(parseError(with(R"("fill": [{"box": {}, "fluid": "oil"}])")), "dam.json: fill[0].fluid" + needs);
+  EXPECT_EQ(parseError(with(R"("duration": 1)"), {{"fluids[0].name", "oil"}}), "--set fluids[0].name: fluids" + needs);
+}
+
+TEST(FluidsScene, OverridesAddressFluidsByNameAndIndex) {
+  const std::string base = fluidScene(kTwoFluids + R"(, "fill": [{"box": {}}], "solids": [{"box": {}}, {"name": "post", "box": {}}])");
+  const Scene s = scene(base, {{"fluids.oil.density", "870"},
+                               {"fluids[0].viscosity", "0.002"},
+                               {"fluids[2]", R"({"name": "tar", "density": 1200})"},
+                               {"fluids.tar.viscosity", "100"},
+                               {"fill[0].fluid", "tar"},
+                               {"solids.post.friction", "0.5"}});
+  EXPECT_EQ(s.fluids[1].density, 870);
+  EXPECT_EQ(s.fluids[0].viscosity, 0.002);
+  EXPECT_EQ(s.fluids[2].viscosity, 100);
+  EXPECT_EQ(fluidIndex(s, s.fill[0].fluid), 2U);
+  EXPECT_EQ(s.solids[1].friction, 0.5);
+}
+
+TEST(FluidsScene, OverridesOfUnknownFluidsAreRejected) {
+  const std::string base = fluidScene(kTwoFluids + R"(, "fill": [{"box": {}}])");
+  EXPECT_EQ(parseError(base, {{"fluids.oyl.density", "1"}}),
+            "--set fluids.oyl.density: no entry of fluids is named \"oyl\"; expected one of \"water\", \"oil\", or an index, as in "
+            "fluids[0]; did you mean \"oil\"?");
+  EXPECT_EQ(parseError(base, {{"fill.oil.fluid", "1"}}),
+            "--set fill.oil.fluid: no entry of fill is named \"oil\"; expected an index, as in fill[0]");
+  EXPECT_EQ(parseError(fluidScene(R"("duration": 1)"), {{"fluids.oil.density", "1"}}),
+            "--set fluids.oil.density: the scene has no \"fluids\"; expected an index, as in fluids[0] (which adds an entry)");
+  EXPECT_EQ(parseError(base, {{"fluids.oil.density", "-1"}}),
+            "--set fluids.oil.density: fluids[1].density: -1 is out of range; expected a number above 0 (kg/m^3)");
+  EXPECT_EQ(parseError(base, {{"fill[0].fluid", "oyl"}}),
+            "--set fill[0].fluid: no fluid is named \"oyl\"; expected one of \"water\", \"oil\"; did you mean \"oil\"?");
+}
+
+TEST(FluidsScene, CheckSceneAppliesTheSameRules) {
+  const auto message = [](const Scene& s) {
+    const auto checked = checkScene(s);
+    return checked ? std::string("accepted") : checked.error().message;
+  };
+  Scene s;
+  s.fluid.spacing = 0.1;
+  s.fluids = {{.name = "water"}, {.name = "oil", .density = 900, .color = Double3{1, 0.5, 0}}};
+  s.fill = {{.shape = BoxShape{}, .fluid = "oil"}};
+  EXPECT_EQ(message(s), "accepted");
+  s.fluids[1].density = 0;
+  EXPECT_EQ(message(s), "fluids[1].density: 0 is out of range; expected a number above 0 (kg/m^3)");
+  s.fluids[1].density = 900;
+  s.fluids[1].color->y = 2;
+  EXPECT_EQ(message(s), "fluids[1].color[1]: 2 is out of range; expected a number from 0 to 1");
+  s.fluids[1] = {.name = "water"};
+  EXPECT_EQ(message(s), "fluids[1].name: \"water\" is also the name of fluids[0]; expected unique names");
+  s.fluids.pop_back();
+  EXPECT_EQ(message(s), "fill[0].fluid: no fluid is named \"oil\"; expected one of \"water\"");
+  s.fill[0].fluid = "";
+  s.fluids.resize(9);
+  EXPECT_EQ(message(s), "fluids: found 9 entries, expected at most 8");
+}
+
+TEST(FluidsParticles, HaveTheFluidOfTheirFill) {
+  const std::string fills = R"("fill": [{"fluid": "oil", "box": {"max": [0.2, 0.1, 0.1]}},
+    {"box": {"min": [0, 0.5, 0], "max": [0.3, 0.6, 0.1]}}])";
+  const ParticleSet set = particles(fluidScene(kTwoFluids + ", " + fills));
+  EXPECT_EQ(set.fluids, (std::vector<uint8_t>{1, 1, 0, 0, 0}));
+  EXPECT_TRUE(particles(fluidScene(R"("fill": [{"box": {}}])")).fluids.empty()) << "one fluid needs no array";
+}
+
+TEST(FluidsParticles, FluidsFollowTheParticlesThatAreLeft) {
+  const std::string fills = R"("fill": [{"box": {"max": [0.3, 0.1, 0.1]}}, {"fluid": "oil", "box": {"max": [0.5, 0.1, 0.1]}}])";
+  const ParticleSet set = particles(fluidScene(kTwoFluids + ", " + fills));
+  EXPECT_EQ(set.leftOutOverlap, 3U);
+  EXPECT_EQ(set.fluids, (std::vector<uint8_t>{0, 0, 0, 1, 1}));
+}
+
+TEST(FluidsParticles, AreMadeByCountToo) {
+  Scene s = scene(R"({"rill": "0.2", "domain": {}, "fluid": {"particles": 1000}, )" + kTwoFluids +
+                  R"(, "fill": [{"box": {"max": [1, 0.5, 1]}}, {"fluid": "oil", "box": {"min": [0, 0.5, 0], "max": [1, 1, 1]}}]})");
+  const ParticleSet set = particles(s);
+  ASSERT_EQ(set.fluids.size(), set.positions.size());
+  for (size_t i = 0; i < set.fluids.size(); ++i) EXPECT_EQ(set.fluids[i], set.positions[i].y > 0.5F ? 1 : 0);
+}
+
+class FluidsPly : public ::testing::Test {
+ protected:
+  static std::string file(const std::string& type, const std::vector<std::string>& values) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(values.size()) +
+                       "\nproperty float x\nproperty float y\nproperty " + type + " fluid\nproperty float z\nend_header\n";
+    for (size_t i = 0; i < values.size(); ++i) text += std::to_string(i) + " 0.5 " + values[i] + " 0.5\n";
+    return text;
+  }
+  Expected<ParticleSet> load(const std::string& bytes, const std::string& fluids, const std::string& key = "") {
+    folder.write("p.ply", bytes);
+    auto s = parseScene(fluidScene(fluids + R"("domain": {"max": [9, 9, 9]}, "fill": [{"particles": {"file": "p.ply"})" + key + "}]"),
+                        "dam.json", folder.path);
+    if (!s) return s.error();
+    return makeParticles(*s, kMany);
+  }
+  std::string message(const std::string& bytes) {
+    const auto set = load(bytes, kTwoFluids + ", ");
+    return set ? "accepted" : set.error().message;
+  }
+  Folder folder;
+};
+
+TEST_F(FluidsPly, ReadsTheFluidOfEachParticle) {
+  const auto set = load(file("uchar", {"1", "0", "1"}), kTwoFluids + ", ");
+  ASSERT_TRUE(set) << set.error().message;
+  EXPECT_EQ(set->fluids, (std::vector<uint8_t>{1, 0, 1}));
+  EXPECT_EQ(set->positions[2].x, 2);
+  EXPECT_EQ(set->positions[2].z, 0.5F) << "columns after it";
+}
+
+TEST_F(FluidsPly, FilesWithoutFluidsAreOfTheFirst) {
+  const std::string plain =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+  const auto set = load(plain, kTwoFluids + ", ");
+  ASSERT_TRUE(set) << set.error().message;
+  EXPECT_EQ(set->fluids, std::vector<uint8_t>{0});
+}
+
+TEST_F(FluidsPly, TheFillsOwnFluidTakesPrecedence) {
+  for (const char* value : {"0", "7"}) {
+    const auto set = load(file("uchar", {value, "0"}), kTwoFluids + ", ", R"(, "fluid": "oil")");
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_EQ(set->fluids, (std::vector<uint8_t>{1, 1}));
+  }
+}
+
+TEST_F(FluidsPly, IsSkippedInASceneOfOneFluid) {
+  const auto set = load(file("float", {"3.5", "-1"}), "");
+  ASSERT_TRUE(set) << set.error().message;
+  EXPECT_TRUE(set->fluids.empty());
+}
+
+TEST_F(FluidsPly, RejectsFluidsThatTheSceneLacks) {
+  const auto expected = [&](const std::string& found) {
+    return "dam: fill[0].particles.file: " + (folder.path / "p.ply").string() + ": vertex 1, property \"fluid\": found " + found +
+           ", expected the index of one of the scene's fluids, a whole number from 0 to 1";
+  };
+  EXPECT_EQ(message(file("uchar", {"1", "2"})), expected("2"));
+  EXPECT_EQ(message(file("int", {"1", "-1"})), expected("-1"));
+  EXPECT_EQ(message(file("float", {"1", "0.5"})), expected("0.5"));
+  EXPECT_EQ(message(file("float", {"1", "nan"})), expected("nan"));
+  EXPECT_EQ(message(file("list uchar uchar", {"1 1", "1 1"})), "dam: fill[0].particles.file: " + (folder.path / "p.ply").string() +
+                                                                   ": the vertex property \"fluid\" is a list; expected a number");
+}
+
+}  // namespace
+}  // namespace rill::test
