@@ -37,17 +37,23 @@ std::string headOf(double time_s, const char* comments, size_t count) {
 std::vector<std::byte> encodePly(const offline::Particles& particles, double time_s) {
   const size_t count = particles.positions.size();
   assert(particles.velocities.size() == count && particles.densities.size() == count && particles.ids.size() == count);
+  assert(particles.fluids.empty() || particles.fluids.size() == count);
   std::string header = headOf(time_s, "", count);
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "density"}) header += std::string("property float ") + name + "\n";
-  header += "property uint id\nend_header\n";
+  header += "property uint id\n";
+  const bool several = !particles.fluids.empty();
+  if (several) header += "property uchar fluid\n";
+  header += "end_header\n";
 
-  std::vector<std::byte> bytes(header.size() + count * sizeof(Vertex));
+  const size_t stride = sizeof(Vertex) + (several ? 1 : 0);
+  std::vector<std::byte> bytes(header.size() + count * stride);
   std::memcpy(bytes.data(), header.data(), header.size());
   std::byte* next = bytes.data() + header.size();
-  for (size_t i = 0; i < count; ++i, next += sizeof(Vertex)) {
+  for (size_t i = 0; i < count; ++i, next += stride) {
     const Float3 &p = particles.positions[i], &v = particles.velocities[i];
     const Vertex vertex{{p.x, p.y, p.z}, {v.x, v.y, v.z}, particles.densities[i], particles.ids[i]};
     std::memcpy(next, &vertex, sizeof vertex);
+    if (several) next[sizeof vertex] = static_cast<std::byte>(particles.fluids[i]);
   }
   return bytes;
 }

@@ -8,7 +8,8 @@
 
 namespace rill::apps {
 
-/// Particles as binary little-endian PLY: float x y z vx vy vz density, uint id a vertex, and the time in seconds in a comment.
+/// Particles as binary little-endian PLY: float x y z vx vy vz density, uint id and, in a scene with several fluids, uchar fluid a vertex;
+/// the time in seconds is in a comment.
 std::vector<std::byte> encodePly(const offline::Particles& particles, double time_s);
 
 /// Writes that to a file, atomically. Io, with the name of the file.

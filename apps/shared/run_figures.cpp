@@ -7,6 +7,16 @@
 namespace rill::apps {
 namespace {
 
+/// Mass of all fluid, kg.
+double fluidMass(const Scene& scene, const offline::Stats& stats) {
+  const double volume = std::pow(scene.fluid.spacing, 3);
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  if (fluids.size() == 1 || stats.fluidParticles.size() != fluids.size()) return double(stats.particles) * fluids[0].density * volume;
+  double mass = 0;
+  for (size_t i = 0; i < fluids.size(); ++i) mass += double(stats.fluidParticles[i]) * fluids[i].density * volume;
+  return mass;
+}
+
 /// Potential energy of all fluid at the domain's lowest corner, J. Energies are measured from there, so that their ratio
 /// does not depend on the scene's origin.
 double lowestPotential(const Scene& scene, double mass) {
@@ -28,8 +38,7 @@ EnergyFigures energyFigures(const Scene& scene, std::span<const Instant> run) {
   energy.start_J = energy.max_J = total(run.front());
   energy.end_J = total(run.back());
   for (const Instant& instant : run) energy.max_J = std::max(energy.max_J, total(instant));
-  const double mass = double(run.front().stats.particles) * scene.fluid.density * std::pow(scene.fluid.spacing, 3);
-  const double floor = lowestPotential(scene, mass);
+  const double floor = lowestPotential(scene, fluidMass(scene, run.front().stats));
   const auto ratio = [&](double joules) {
     if (joules == energy.start_J) return 1.0;
     return energy.start_J - floor > 0 ? (joules - floor) / (energy.start_J - floor) : std::numeric_limits<double>::quiet_NaN();

@@ -75,7 +75,9 @@ std::vector<std::byte> encodeVtu(const offline::Particles& particles, double tim
   std::iota(points.begin(), points.end(), int64_t{0});
   std::string piece = "<Piece NumberOfPoints=\"" + number + "\" NumberOfCells=\"" + number + "\">\n";
   piece += "<PointData Scalars=\"density\" Vectors=\"velocity\">\n" + arrays.add("Float32", "velocity", 3, particles.velocities) +
-           arrays.add("Float32", "density", 1, particles.densities) + arrays.add("UInt32", "id", 1, particles.ids) + "</PointData>\n";
+           arrays.add("Float32", "density", 1, particles.densities) + arrays.add("UInt32", "id", 1, particles.ids);
+  if (!particles.fluids.empty()) piece += arrays.add("UInt8", "fluid", 1, particles.fluids);
+  piece += "</PointData>\n";
   piece += "<Points>\n" + arrays.add("Float32", "Points", 3, particles.positions) + "</Points>\n";
   piece += "<Cells>\n" + arrays.add("Int64", "connectivity", 1, points) + arrays.add("Int64", "offsets", 1, counting(count, 1)) +
            arrays.add("UInt8", "types", 1, std::vector<uint8_t>(count, 1)) + "</Cells>\n</Piece>\n";

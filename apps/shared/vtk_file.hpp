@@ -12,7 +12,8 @@ namespace rill::apps {
 
 /// A mesh as PolyData, with the arrays Normals and velocity (m/s) at points.
 std::vector<std::byte> encodeVtp(const offline::SurfaceTriangles& mesh, double time_s);
-/// Particles as an UnstructuredGrid of vertex cells, with the arrays velocity (m/s), density (kg/m^3) and id.
+/// Particles as an UnstructuredGrid of vertex cells, with the arrays velocity (m/s), density (kg/m^3), id and, in a scene with
+/// several fluids, fluid.
 std::vector<std::byte> encodeVtu(const offline::Particles& particles, double time_s);
 /// A .pvd file, which lists the files of a series with their times (s).
 std::string encodePvd(std::span<const std::pair<double, std::string>> files);

@@ -42,10 +42,13 @@ Readout collect(const Graph& graph, const ReadoutTickets& tickets) {
   result.positions.reserve(count);
   result.velocities.reserve(count);
   result.relativeDensities.reserve(count);
+  result.fluids.reserve(count);
   for (uint32_t i = 0; i < count; ++i) {
     result.positions.push_back({positions[i].x, positions[i].y, positions[i].z});
     result.velocities.push_back({velocities[i].x, velocities[i].y, velocities[i].z});
     result.relativeDensities.push_back(velocities[i].w);
+    const float fluid = positions[i].w;
+    result.fluids.push_back(fluid >= 0 && fluid < static_cast<float>(kMaxFluids) ? static_cast<uint8_t>(fluid) : uint8_t{0});
   }
   return result;
 }
@@ -58,6 +61,7 @@ Readout activeOnly(const Readout& all) {
     active.velocities.push_back(all.velocities[i]);
     active.relativeDensities.push_back(all.relativeDensities[i]);
     active.ids.push_back(all.ids[i]);
+    active.fluids.push_back(all.fluids[i]);
   }
   return active;
 }

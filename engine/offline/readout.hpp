@@ -14,6 +14,7 @@ struct Readout {
   std::vector<Float3> velocities;        ///< m/s
   std::vector<float> relativeDensities;  ///< density over rest density
   std::vector<uint32_t> ids;
+  std::vector<uint8_t> fluids;  ///< index among resolvedFluids()
 };
 
 /// Read-backs of a Readout.

@@ -124,14 +124,18 @@ class Simulation::Impl {
     particles.velocities.resize(count);
     particles.densities.resize(count);
     particles.ids.resize(count);
+    if (!scene_.fluids.empty()) particles.fluids.resize(count);
+    const std::vector<ResolvedFluid> fluids = resolvedFluids(scene_);
     for (size_t k = 0; k < count; ++k) {
       const size_t i = visit.empty() ? k : visit[k];
       const Float3& p = readout_.positions[i];
       particles.positions[k] = {static_cast<float>(start_.origin[0] + p.x), static_cast<float>(start_.origin[1] + p.y),
                                 static_cast<float>(start_.origin[2] + p.z)};
       particles.velocities[k] = readout_.velocities[i];
-      particles.densities[k] = static_cast<float>(readout_.relativeDensities[i] * scene_.fluid.density);
+      const size_t fluid = std::min<size_t>(readout_.fluids[i], fluids.size() - 1);
+      particles.densities[k] = static_cast<float>(readout_.relativeDensities[i] * fluids[fluid].density);
       particles.ids[k] = readout_.ids[i];
+      if (!particles.fluids.empty()) particles.fluids[k] = static_cast<uint8_t>(fluid);
     }
     return particles;
   }
@@ -189,6 +193,8 @@ class Simulation::Impl {
     stats.listBuilds = advanced_.listBuilds;
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
+    stats.fluidParticles.resize(resolvedFluids(scene_).size());
+    for (uint8_t fluid : readout_.fluids) ++stats.fluidParticles[std::min<size_t>(fluid, stats.fluidParticles.size() - 1)];
     stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies());
     stats.probes = probes_.read(*fluid_, reader, measured_->time_s, advanced_s_ - advanced_.timeDropped_s);
     if (white_) stats.whitewater = whiteStats_;

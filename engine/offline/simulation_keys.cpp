@@ -108,6 +108,7 @@ std::string hashOf(const ParticleSet& start) {
   for (const std::vector<Float3>* vectors : {&start.positions, &start.velocities})
     for (const Float3& v : *vectors)
       for (float number : {v.x, v.y, v.z}) hash.add(std::bit_cast<uint32_t>(number));
+  for (uint8_t fluid : start.fluids) hash.add(uint32_t{fluid});
   return textOf(hash);
 }
 
@@ -116,12 +117,23 @@ const std::string* find(const SimulationKeys& keys, const std::string& key) {
   return found == keys.end() ? nullptr : &found->second;
 }
 
+/// Which fluid each source emits, by its index: names may change.
+void addFluidsOfSources(const Scene& scene, SimulationKeys& keys) {
+  if (scene.fluids.empty()) return;
+  const auto add = [&](const std::string& path, const std::string& name) {
+    keys.emplace_back(memberPath(path, "fluid"), std::to_string(fluidIndex(scene, name)));
+  };
+  for (size_t i = 0; i < scene.emitters.size(); ++i) add(elementPath("emitters", i), scene.emitters[i].fluid);
+  if (scene.domain && scene.domain->inflow) add("domain.inflow", scene.domain->inflow->fluid);
+}
+
 }  // namespace
 
 SimulationKeys simulationKeys(const Scene& scene, const ParticleSet& start) {
   KeyCollector collector;
   collector.collect("", scene);
   SimulationKeys keys = collector.take();
+  addFluidsOfSources(scene, keys);
   keys.emplace_back("start", hashOf(start));
   return keys;
 }

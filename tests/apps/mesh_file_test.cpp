@@ -111,6 +111,11 @@ TEST(MeshFile, VtkFilesHaveTheirArrays) {
   const std::string vtu = textOf(encodeVtu(particles, 0.25));
   EXPECT_NE(vtu.find("<Piece NumberOfPoints=\"3\" NumberOfCells=\"3\">"), std::string::npos);
   expectArrays(vtu, 8);
+  EXPECT_EQ(vtu.find("Name=\"fluid\""), std::string::npos);
+  particles.fluids = {0, 1, 0};
+  const std::string several = textOf(encodeVtu(particles, 0.25));
+  EXPECT_NE(several.find("<DataArray type=\"UInt8\" Name=\"fluid\""), std::string::npos);
+  expectArrays(several, 9);
   const std::pair<double, std::string> files[] = {{0, "frame_00000.vtu"}, {0.5, "frame_00001.vtu"}};
   EXPECT_NE(encodePvd(files).find("<DataSet timestep=\"0.5\" part=\"0\" file=\"frame_00001.vtu\"/>"), std::string::npos);
 }

@@ -48,6 +48,28 @@ TEST(Ply, EncodesBinaryLittleEndian) {
   EXPECT_EQ(id, 4000000000u);
 }
 
+TEST(Ply, EncodesFluidsWhereThereAreSeveral) {
+  offline::Particles particles;
+  particles.positions = {{1, 2, 3}, {4, 5, 6}};
+  particles.velocities = {{-1, 0, 0.5f}, {0, 0, 7}};
+  particles.densities = {1000, 900};
+  particles.ids = {7, 8};
+  particles.fluids = {0, 1};
+  const TemporaryFolder folder;
+  ASSERT_TRUE(writePly(folder / "frame_00000.ply", particles, 0.25));
+  EXPECT_NE(contentOf(folder / "frame_00000.ply").find("property uint id\nproperty uchar fluid\nend_header\n"), std::string::npos);
+
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  scene.fluids = {{.name = "water"}, {.name = "oil"}};
+  scene.fill = {{.shape = ParticleFile{folder / "frame_00000.ply"}}};
+  const auto set = makeParticles(scene);
+  ASSERT_TRUE(set) << set.error().message;
+  EXPECT_EQ(set->fluids, (std::vector<uint8_t>{0, 1}));
+  ASSERT_EQ(set->velocities.size(), 2U);
+  EXPECT_EQ(set->velocities[1], (Float3{0, 0, 7}));
+}
+
 TEST(Ply, EncodesWhitewaterWithClasses) {
   offline::DiffuseParticles particles;
   particles.positions = {{1, 2, 3}, {4, 5, 6}};

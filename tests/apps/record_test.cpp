@@ -142,6 +142,20 @@ TEST(Record, EnergyIsMeasuredFromLowestCorner) {
   EXPECT_EQ(figure(resting, "energy_ratio"), 1) << "no energy at the start";
 }
 
+TEST(Record, EnergyCountsEachFluidsMass) {
+  Scene two = scene();
+  two.domain = Domain{{0, -10, 0}, {1, -9, 1}, 0};
+  two.fluids = {{.name = "water"}, {.name = "oil", .density = 500}};
+  const double mass = (60 * 1000 + 40 * 500) * 0.001, floor = mass * 9.81 * -10;
+  Record record(two, {}, "");
+  for (const double kinetic : {0.0, 4.0}) {
+    offline::Stats at = stats(0, kinetic, floor + 400);
+    at.fluidParticles = {60, 40};
+    record.add(kinetic, at);
+  }
+  EXPECT_NEAR(figure(record, "energy_ratio"), 1.01, 1e-9);
+}
+
 TEST(Record, WritesDocumentedJsonKeys) {
   const Scene small = scene();
   DeviceInfo device;

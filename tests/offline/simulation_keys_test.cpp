@@ -51,5 +51,34 @@ TEST(SimulationKeys, FindADifferentFlowButNoOtherName) {
   EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "drains[0].sphere.center: not set, expected [1,2,3]");
 }
 
+Scene withFluids() {
+  Scene scene = withFlows();
+  scene.fluids = {{.name = "water"}, {.name = "oil", .density = 900, .color = Double3{1, 0, 0}}};
+  scene.emitters[1].fluid = "oil";
+  return scene;
+}
+
+TEST(SimulationKeys, HaveFluidsAndTheFluidOfEmittersByItsIndex) {
+  const SimulationKeys keys = simulationKeys(withFluids(), {});
+  EXPECT_EQ(valueOf(keys, "fluids[1].density"), "900");
+  EXPECT_EQ(valueOf(keys, "fluids[1].color"), "absent") << "no bit depends on it";
+  EXPECT_EQ(valueOf(keys, "emitters[0].fluid"), "0");
+  EXPECT_EQ(valueOf(keys, "emitters[1].fluid"), "1");
+  EXPECT_EQ(valueOf(simulationKeys(withFlows(), {}), "emitters[1].fluid"), "absent");
+  Scene other = withFluids();
+  other.fluids[1].name = other.emitters[1].fluid = "petrol";
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "");
+  other.emitters[0].fluid = "petrol";
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "emitters[0].fluid: found 1, expected 0");
+}
+
+TEST(SimulationKeys, FindOtherFluidsOfParticles) {
+  ParticleSet start{.positions = {{0, 0, 0}, {1, 0, 0}}, .velocities = {{0, 0, 0}, {0, 0, 0}}, .fluids = {0, 1}};
+  const SimulationKeys keys = simulationKeys(withFluids(), start);
+  EXPECT_EQ(firstDifference(keys, simulationKeys(withFluids(), start)), "");
+  start.fluids = {1, 0};
+  EXPECT_NE(firstDifference(keys, simulationKeys(withFluids(), start)).find("start: the initial particles differ"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rill::test

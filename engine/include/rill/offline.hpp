@@ -73,6 +73,7 @@ struct Particles {
   std::vector<Float3> velocities = {};  ///< m/s
   std::vector<float> densities = {};    ///< kg/m^3
   std::vector<uint32_t> ids = {};       ///< index in the initial particles: the order of the fills
+  std::vector<uint8_t> fluids = {};     ///< index among the scene's fluids; empty in a scene without `fluids`
 };
 
 /// The diffuse particles of whitewater at one time, in the order of the device.
@@ -161,6 +162,7 @@ using ProbeValue = std::variant<double, LoadValue, PoseValue, PressureValue, Flo
 /// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
   double front_m = 0;                                           ///< farthest fluid along +x, relative to the domain's minimum, m
+  std::vector<uint64_t> fluidParticles = {};                    ///< number of particles of each of resolvedFluids()
   uint64_t stateHash = 0;                                       ///< FNV-1a of positions and velocities in id order, then of bodies
   std::vector<std::pair<std::string, ProbeValue>> probes = {};  ///< name and value
   std::optional<WhitewaterStats> whitewater = {};               ///< with Look::whitewater
