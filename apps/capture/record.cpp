@@ -300,8 +300,8 @@ std::vector<std::string> Record::warnings() const {
                        " substeps per frame (solver.max_substeps) are too few for the time step that the fluid's speed and weight and "
                        "solver.time_step allow");
   if (last.viscosityBoundHits > 0)
-    warnings.push_back("warning: in " + grouped(last.viscosityBoundHits) +
-                       " substeps viscosity needed more steps than its solve takes: fluid.viscosity acted as less");
+    warnings.push_back("warning: in " + grouped(last.viscosityBoundHits) + " substeps viscosity needed more steps than its solve takes: " +
+                       (scene_->fluids.empty() ? "fluid.viscosity" : "that of the fluids") + " acted as less");
   if (last.loopBoundHits > 0)
     warnings.push_back("warning: loops of the fluid's shaders reached their limit " + grouped(last.loopBoundHits) +
                        " times since the start: some particles have too many neighbors, or bodies touch too many solids");

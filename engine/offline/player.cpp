@@ -1,4 +1,5 @@
 // Renders given particles.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -44,18 +45,26 @@ class Player::Impl {
     return {};
   }
 
-  Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities, double time_s) {
+  Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities, double time_s,
+                      const std::vector<uint8_t>& fluids) {
     if (positions.size() > kMaxParticles)
       return Error{ErrorKind::TooLarge, std::to_string(positions.size()) + " particles; expected at most " + std::to_string(kMaxParticles)};
     if (!velocities.empty() && velocities.size() != positions.size())
       return Error{ErrorKind::BadInput, "found " + std::to_string(velocities.size()) + " velocities for " +
                                             std::to_string(positions.size()) + " positions, expected equal numbers"};
+    if (!fluids.empty() && fluids.size() != positions.size())
+      return Error{ErrorKind::BadInput, "found " + std::to_string(fluids.size()) + " fluids for " + std::to_string(positions.size()) +
+                                            " positions, expected equal numbers"};
+    const size_t known = std::max<size_t>(scene_.fluids.size(), 1);
+    if (const auto wrong = std::ranges::find_if(fluids, [&](uint8_t fluid) { return fluid >= known; }); wrong != fluids.end())
+      return Error{ErrorKind::BadInput, "found fluid " + std::to_string(*wrong) + " of a particle, expected an index below " +
+                                            std::to_string(known) + ", the number of the scene's fluids"};
     count_ = static_cast<uint32_t>(positions.size());
     time_s_ = time_s;
     origin_ = origin;
     pictures_.contentChanged();
     if (count_ == 0) return {};
-    for (const auto& [buffer, from, w] : {std::tuple{&position_, &positions, 0.0f}, std::tuple{&velocity_, &velocities, 1.0f}}) {
+    for (const auto& [buffer, from] : {std::pair{&position_, &positions}, std::pair{&velocity_, &velocities}}) {
       const uint64_t bytes = uint64_t{count_} * sizeof(Float4);
       if (buffer->size() < bytes) {
         auto made = createBuffer(context_->device(), "played particles", bytes, MemoryKind::Upload);
@@ -65,6 +74,7 @@ class Player::Impl {
       std::byte* to = buffer->mapped();
       for (uint32_t i = 0; i < count_; ++i, to += sizeof(Float4)) {
         const Float3 v = from->empty() ? Float3{} : (*from)[i];
+        const float w = buffer == &velocity_ ? 1.0f : fluids.empty() ? 0.0f : static_cast<float>(fluids[i]);
         const Float4 record{v.x, v.y, v.z, w};
         std::memcpy(to, &record, sizeof record);
       }
@@ -157,8 +167,8 @@ Expected<Player> Player::open(Scene scene, const Options& options) try {
 } catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }
 
 Expected<void> Player::show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities,
-                            double time_s) {
-  return impl_->show(positions, origin, velocities, time_s);
+                            double time_s, const std::vector<uint8_t>& fluids) {
+  return impl_->show(positions, origin, velocities, time_s, fluids);
 }
 
 Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t height) try {

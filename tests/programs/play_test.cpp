@@ -118,6 +118,28 @@ TEST(Play, ErrorsNameFolderAndFile) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_00000.png"));
 }
 
+TEST(Play, RefusesFluidsThatTheSceneLacks) {
+  const TemporaryFolder folder;
+  const std::string scene = folder
+                                .write("scene.json", R"({"rill": "0.2", "fluid": {"spacing": 0.1}, "domain": {},
+                                  "fluids": [{"name": "water"}, {"name": "oil"}]})")
+                                .string();
+  std::filesystem::create_directories(folder / "in");
+  const auto play = [&](const std::string& fluid) {
+    write(folder / "in/one.ply",
+          "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty uchar fluid\n"
+          "end_header\n0.5 0.5 0.5 " +
+              fluid + "\n");
+    return capture({scene, "--size", "64x36", "--out", (folder / "out").string(), "--quiet", "--play", (folder / "in").string()});
+  };
+  EXPECT_EQ(play("1").code, 0);
+  const Outcome refused = play("2");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("one.ply: vertex 0, property \"fluid\": found 2, expected the index of one of the scene's fluids"),
+            std::string::npos)
+      << refused.err;
+}
+
 // The same in the library, with the validation layer.
 TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   Scene scene;
@@ -139,6 +161,9 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
     ASSERT_TRUE(player->show(positions, origin));
   }
   EXPECT_FALSE(player->show(positions, origin, {{0, 0, 0}}));
+  EXPECT_FALSE(player->show(positions, origin, {}, 0, {0}));
+  EXPECT_TRUE(player->show(positions, origin, {}, 0, std::vector<uint8_t>(positions.size(), 0)));
+  EXPECT_FALSE(player->show(positions, origin, {}, 0, std::vector<uint8_t>(positions.size(), 1))) << "the scene has one fluid";
   for (const std::string& text : player->takeValidationMessages()) ADD_FAILURE() << text;
 }
 

@@ -266,9 +266,10 @@ class Player {
   Player& operator=(Player&&) noexcept;
 
   /// Sets the particles to draw. `positions`: m, relative to `origin`. `velocities`: m/s, for the color of some views; may be empty.
-  /// `time_s`: time of moving solids, s. BadInput if the numbers of positions and velocities differ; TooLarge, OutOfMemory.
+  /// `time_s`: time of moving solids, s. `fluids`: indices among resolvedFluids(); may be empty: all 0. BadInput if the numbers of
+  /// positions and velocities or fluids differ, or the scene lacks one of the fluids; TooLarge, OutOfMemory.
   Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities = {},
-                      double time_s = 0);
+                      double time_s = 0, const std::vector<uint8_t>& fluids = {});
   /// As Simulation::render(). Without fluid before the first show().
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   Expected<LinearImage> renderLinear(uint32_t width, uint32_t height);                     ///< as Simulation::renderLinear()
