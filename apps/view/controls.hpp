@@ -19,12 +19,16 @@ class Controls {
   Expected<void> handle(const InputEvent& event, const Area& area, Session& session, bool overPanels, bool paused);
   /// Call after the scene was restarted.
   void reset();
-  /// Throws fluid at what is under the pointer.
-  Expected<uint64_t> throwFluid(Session& session, const Area& area) const { return Touch::throwFluid(session, ray(area)); }
+  /// Throws the scene's `fluid` (empty: the first) at what is under the pointer.
+  Expected<uint64_t> throwFluid(Session& session, const Area& area, const std::string& fluid) const {
+    return Touch::throwFluid(session, ray(area), fluid);
+  }
   /// Throws a crate likewise. What is grabbed is released.
   Expected<void> throwCrate(Session& session, const Area& area);
   /// Pours at what is under the pointer, and at what it moves to, until closeTap(). `flow`: m^3/s; 0: Tap::defaultFlow().
-  Expected<void> openTap(Session& session, const Area& area, double flow) { return tap_.open(session, ray(area), flow); }
+  Expected<void> openTap(Session& session, const Area& area, double flow, const std::string& fluid) {
+    return tap_.open(session, ray(area), flow, fluid);
+  }
   void closeTap(Session& session) { tap_.close(session); }
   /// In pixels of the window, where a body is pulled: from the point that it was grabbed by to where it is pulled to.
   std::optional<std::array<Place, 2>> pullLine(const Session& session, const Area& area) const;

@@ -273,6 +273,15 @@ Expected<void> Runner::addTap(const Emitter& emitter, uint64_t room) {
   return {};
 }
 
+Expected<void> Runner::changeTap(const std::string& fluid) {
+  if (fluidIndex(scene_, scene_.emitters.back().fluid) == fluidIndex(scene_, fluid)) return {};
+  auto now = snapshot();
+  if (!now) return now.error();
+  Scene scene = scene_;
+  scene.emitters.back().fluid = fluid;
+  return continueFrom(std::move(scene), start_, std::move(*now));
+}
+
 std::optional<uint32_t> Runner::tap() const {
   return tapRoom_ > 0 ? std::optional(static_cast<uint32_t>(flows_.size() - 1)) : std::nullopt;
 }

@@ -80,6 +80,8 @@ class Runner {
   Expected<void> changeSolids(std::vector<Solid> solids);
   /// Adds an emitter, closed, behind those of the scene, with room for `room` > 0 particles in addition, where the device has it. Once.
   Expected<void> addTap(const Emitter& emitter, uint64_t room);
+  /// Changes what the tap, which was added, emits to one of the scene's fluids.
+  Expected<void> changeTap(const std::string& fluid);
   /// Adds the particles of a fill where there is room, and returns their number. BadInput where less than a quarter fit.
   Expected<uint64_t> add(const Fill& fill);
 

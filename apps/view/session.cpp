@@ -87,6 +87,12 @@ Expected<void> Session::addTap(const Emitter& emitter, uint64_t room) {
   return added;
 }
 
+Expected<void> Session::changeTap(const std::string& fluid) {
+  auto changed = runner_->changeTap(fluid);
+  if (changed) resetPainter();
+  return changed;
+}
+
 void Session::release() {
   painter_.reset();
   if (runner_) released_ = runner_->kept();
@@ -112,6 +118,7 @@ bool Session::isLive(std::string_view key) const {
   if (std::ranges::find(kNeedsRestart, key) != std::end(kNeedsRestart)) return false;
   if (const auto solid = bodyOfMass(key)) return *solid < fileSolids_ && scene().solids[*solid].body.has_value();
   if (key == "gravity") return scene().gravity_changes.empty();
+  if (key.starts_with("fluids")) return key.ends_with(".viscosity") || key.ends_with(".color");
   return key.starts_with("fluid.") || key.starts_with("solver.") || key.starts_with("look.");
 }
 

@@ -36,6 +36,7 @@ class Session {
   Expected<void> changeSolids(std::vector<Solid> solids);
   Expected<uint64_t> add(const Fill& fill);
   Expected<void> addTap(const Emitter& emitter, uint64_t room);
+  Expected<void> changeTap(const std::string& fluid);
 
   /// Restarts with the changes.
   Expected<void> restart();

@@ -92,8 +92,12 @@ Expected<void> ShownScene::tilt(Tilt direction) {
   return change({"gravity", text});
 }
 
+std::string ShownScene::pouredFluid() const {
+  return fluidIndex(session_->scene(), settings_.poured) < kMaxFluids ? settings_.poured : std::string();
+}
+
 Expected<void> ShownScene::throwFluid() {
-  const auto thrown = controls_.throwFluid(*session_, layout_.picture);
+  const auto thrown = controls_.throwFluid(*session_, layout_.picture, pouredFluid());
   if (!thrown) return message_.report(thrown.error());
   dirty_ = true;
   return {};
@@ -106,7 +110,7 @@ Expected<void> ShownScene::throwCrate() {
 }
 
 Expected<void> ShownScene::openTap() {
-  const auto opened = controls_.openTap(*session_, layout_.picture, settings_.tapFlow);
+  const auto opened = controls_.openTap(*session_, layout_.picture, settings_.tapFlow, pouredFluid());
   dirty_ = true;
   return message_.report(opened);
 }

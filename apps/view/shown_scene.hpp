@@ -71,6 +71,7 @@ class ShownScene {
 
  private:
   CameraView homeView() const;
+  std::string pouredFluid() const;  // empty: the first of the scene
   Expected<void> applied(const Expected<void>& change, const std::string& key);
   void onRestart();
 

@@ -54,7 +54,7 @@ double Tap::defaultFlow(const Session& session) {
   return std::numbers::pi * radius(session) * radius(session) * kTapSpeed * sceneBox(session).longest();
 }
 
-Expected<void> Tap::open(Session& session, const Ray& ray, double flow) {
+Expected<void> Tap::open(Session& session, const Ray& ray, double flow, const std::string& fluid) {
   const auto point = aimedAt(session, ray);
   if (!point) return point.error();
   if (!session.runner().tap()) {
@@ -64,9 +64,12 @@ Expected<void> Tap::open(Session& session, const Ray& ray, double flow) {
     Emitter emitter;
     emitter.mouth = DiscMouth{.radius = radius(session)};
     emitter.flow = defaultFlow(session);
+    emitter.fluid = fluid;
     const double spacing = session.scene().fluid.spacing, rate = emitter.flow / (spacing * spacing * spacing);
     const uint64_t room = std::clamp<uint64_t>(static_cast<uint64_t>(std::min(kPours_s * rate, 1e9)), 1, kMaxTapParticles);
     if (auto added = session.addTap(emitter, room); !added) return added;
+  } else if (auto changed = session.changeTap(fluid); !changed) {
+    return changed;
   }
   open_ = true;
   flow_ = flow > 0 ? flow : defaultFlow(session);

@@ -7,8 +7,9 @@ namespace rill::view {
 
 class Tap {
  public:
-  /// Pours `flow` m^3/s (0: defaultFlow()) from above what the ray hits first, until close(). BadInput where it misses the scene.
-  Expected<void> open(Session& session, const Ray& ray, double flow);
+  /// Pours `flow` m^3/s (0: defaultFlow()) of the scene's `fluid` (empty: the first) from above what the ray hits first, until close().
+  /// BadInput where it misses the scene.
+  Expected<void> open(Session& session, const Ray& ray, double flow, const std::string& fluid = {});
   /// Moves it to the ray, in the plane parallel to the image through the point that it pours at.
   void move(Session& session, const CameraView& eye, const Ray& ray);
   void close(Session& session);

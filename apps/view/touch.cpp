@@ -119,7 +119,7 @@ std::optional<std::array<Double3, 2>> Touch::pullLine(const Session& session) co
   return std::array{along(pose.center, 1, toScene(pose, pull_.point)), pull_.target};
 }
 
-Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
+Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray, const std::string& fluid) {
   const SceneBox room = sceneBox(session);
   const double spacing = session.scene().fluid.spacing;
   const double shortest = std::min({room.high[0] - room.low[0], room.high[1] - room.low[1], room.high[2] - room.low[2]});
@@ -127,6 +127,7 @@ Expected<uint64_t> Touch::throwFluid(Session& session, const Ray& ray) {
   const auto enters = entry(ray, room.low, room.high);
   if (!enters || radius <= 0) return Error{ErrorKind::BadInput, "There is no room for fluid there; point into the tank"};
   Fill fill;
+  fill.fluid = fluid;
   auto& sphere = fill.shape.emplace<SphereShape>();
   sphere.radius = radius;
   const auto inside = ray.at(*enters + radius);

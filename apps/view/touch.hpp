@@ -25,8 +25,9 @@ class Touch {
   /// Call after the scene was restarted.
   void reset() { solid_.reset(); }
 
-  /// Adds a ball of fluid where the ray enters the scene, moving along the ray. BadInput where there is no room.
-  static Expected<uint64_t> throwFluid(Session& session, const Ray& ray);
+  /// Adds a ball of the scene's `fluid` (empty: the first) where the ray enters the scene, moving along the ray. BadInput where there is no
+  /// room.
+  static Expected<uint64_t> throwFluid(Session& session, const Ray& ray, const std::string& fluid = {});
   /// Adds a box with a body at the first place on the ray, within the scene and before what it hits, where there is room, moving along the
   /// ray. BadInput where it has no room.
   static Expected<void> throwCrate(Session& session, const Ray& ray);

@@ -22,6 +22,11 @@ constexpr const char* kFlowing = R"({
   "drains": [{"name": "sink", "box": {"min": [1.8, 0, 0], "max": [2, 0.1, 0.6]}}],
   "probes": [{"name": "in", "flow": "source"}]
 })";
+constexpr const char* kTwoFluids = R"({
+  "rill": "0.2", "domain": {"min": [1, 0, 0], "max": [2, 1.4, 0.6]}, "fluid": {"spacing": 0.05, "viscosity": 0.001},
+  "fluids": [{"name": "water"}, {"name": "oil", "density": 900, "viscosity": 0.05}],
+  "fill": [{"box": {"min": [1, 0, 0], "max": [2, 0.2, 0.6]}}]
+})";
 constexpr double kParticle = 0.05 * 0.05 * 0.05;  // m^3
 
 class TapTest : public SessionTest {
@@ -102,6 +107,47 @@ TEST_F(TapTest, JoinsEmittersAndDrainsOfTheScene) {
   tap_.reset();
   EXPECT_FALSE(runner().tap());
   EXPECT_EQ(runner().flows()[0], 0.02);
+}
+
+TEST_F(TapTest, PoursTheChosenFluid) {
+  open(kTwoFluids);
+  ASSERT_TRUE(tap_.open(session(), at(1.5, 0.1), 0, "oil"));
+  EXPECT_EQ(session().scene().emitters.back().fluid, "oil");
+  steps(10);
+  const uint64_t oil = poured().particles;
+  EXPECT_GT(oil, 0u);
+  tap_.close(session());
+  ASSERT_TRUE(tap_.open(session(), at(1.5, 0.1), 0));
+  ASSERT_EQ(session().scene().emitters.size(), 1u) << "the same tap";
+  EXPECT_EQ(session().scene().emitters.back().fluid, "");
+  EXPECT_EQ(poured().particles, oil);
+  steps(10);
+  EXPECT_GT(poured().particles, oil);
+  EXPECT_EQ(stats().nonFinite + stats().outside, 0u);
+}
+
+TEST_F(TapTest, ThrownBallsAreOfTheChosenFluid) {
+  open(kTwoFluids);
+  const size_t before = runner().start().positions.size();
+  const auto thrown = Touch::throwFluid(session(), at(1.5, 0.9), "oil");
+  ASSERT_TRUE(thrown) << thrown.error().message;
+  const ParticleSet& start = runner().start();
+  ASSERT_EQ(start.fluids.size(), start.positions.size());
+  for (size_t i = 0; i < start.fluids.size(); ++i) ASSERT_EQ(start.fluids[i], i < before ? 0 : 1);
+}
+
+TEST_F(TapTest, ViscosityOfAFluidChangesWhileItRuns) {
+  open(kTwoFluids);
+  steps(2);
+  EXPECT_TRUE(session().isLive("fluids[1].viscosity"));
+  EXPECT_FALSE(session().isLive("fluids[1].density"));
+  const auto changed = session().change({"fluids[1].viscosity", "0.2"});
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_EQ(runner().steps(), 3u) << "the fluid goes on";
+  EXPECT_EQ(session().scene().fluids[1].viscosity, 0.2);
+  ASSERT_TRUE(session().change({"fluids[1].density", "800"}));
+  EXPECT_EQ(runner().steps(), 0u) << "it restarts";
+  EXPECT_EQ(session().scene().fluids[1].density, 800);
 }
 
 TEST_F(TapTest, IsClosedOnANewDevice) {

@@ -143,6 +143,38 @@ void group(Board& board, const char* name, const Owner& owner) {
   ImGui::TreePop();
 }
 
+/// What is poured and thrown.
+void pouredChoice(Board& board, const std::vector<ResolvedFluid>& fluids) {
+  const size_t known = fluidIndex(board.session.scene(), board.settings.poured), chosen = known < fluids.size() ? known : 0;
+  ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.42f);
+  if (ImGui::BeginCombo("poured, thrown", fluids[chosen].name.c_str())) {
+    for (size_t k = 0; k < fluids.size(); ++k) {
+      ImGui::PushID(static_cast<int>(k));
+      if (ImGui::Selectable(fluids[k].name.c_str(), k == chosen)) board.settings.poured = fluids[k].name;
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the fluid of the tap (key T) and of balls that are thrown (Space)");
+}
+
+/// The materials of several fluids. What a fluid does not give is shown as that of `fluid`.
+void fluidsGroup(Board& board, const Scene& scene) {
+  if (scene.fluids.empty()) return;
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  pouredChoice(board, fluids);
+  for (size_t k = 0; k < fluids.size(); ++k) {
+    const std::string path = elementPath("fluids", k);
+    constexpr ImGuiTreeNodeFlags kFlags = ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanAvailWidth;
+    if (!ImGui::TreeNodeEx(path.c_str(), kFlags, "%s", fluids[k].name.c_str())) continue;
+    model::forEachField<FluidMaterial>([&](const auto& field) {
+      if (field.info.key == "density") KeyField(board, path, field.info).draw(fluids[k].density);
+      if (field.info.key == "viscosity") KeyField(board, path, field.info).draw(fluids[k].viscosity);
+    });
+    ImGui::TreePop();
+  }
+}
+
 }  // namespace
 
 void parameterPanel(Board& board) {
@@ -153,6 +185,7 @@ void parameterPanel(Board& board) {
     if constexpr (std::is_same_v<Value, Double3>) KeyField(board, "", field.info).draw(scene.*(field.member));
   });
   group(board, "fluid", scene.fluid);
+  fluidsGroup(board, scene);
   group(board, "solver", scene.solver);
   group(board, "look", scene.look);
 }
