@@ -126,6 +126,25 @@ TEST_F(ViewWindowTest, CratesAreThrownAndBodiesPulledByScript) {
   }
 }
 
+TEST_F(ViewWindowTest, ChangesOneOfSeveralFluids) {
+  const std::string two = folder
+                              .write("two.json", R"({
+    "rill": "0.2", "domain": {"max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+    "fluids": [{"name": "water"}, {"name": "oil", "density": 900, "viscosity": 0.05}],
+    "fill": [{"box": {"max": [0.5, 0.3, 0.3]}}, {"fluid": "oil", "box": {"min": [0, 0.3, 0], "max": [0.5, 0.5, 0.3]}}]
+  })")
+                              .string();
+  folder.write("thick.txt", "3 set fluids.oil.viscosity=2\n4 set fluids[1].viscosity=-1\n");
+  folder.write("dense.txt", "3 set fluids[1].density=700\n");
+  const Outcome thick = view({two, "--script", "thick.txt", "--frames", "7", "--lockstep", "--validate"});
+  EXPECT_EQ(thick.code, 0) << thick.err;
+  EXPECT_EQ(thick.err, "");
+  EXPECT_EQ(figure(thick, "steps"), "6");
+  const Outcome dense = view({two, "--script", "dense.txt", "--frames", "7", "--lockstep", "--validate"});
+  EXPECT_EQ(dense.code, 0) << dense.err;
+  EXPECT_LT(std::stoi("0" + figure(dense, "steps")), 6) << "a density restarts the scene";
+}
+
 TEST_F(ViewWindowTest, PanelsConsumeTheirClicks) {
   // On the button "Pause (P)", and in the picture, where it does not pause.
   folder.write("click.txt", "1 move 42 97\n1 press left\n2 release left\n9 view final\n");
