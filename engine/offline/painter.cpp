@@ -43,6 +43,11 @@ const View* find(std::string_view name) {
   return found == std::end(kViews) ? nullptr : found;
 }
 
+/// What the particles' colors show: which fluid, where there are several and the view is of no other quantity.
+ParticleColor coloring(const View& view, const Scene& scene) {
+  return view.name == "particles" && scene.fluids.size() > 1 ? ParticleColor::Fluid : view.color;
+}
+
 /// The texels of an image of half floats, to be read back.
 BufferRef linearPixels(Graph& graph, ImageRef color, uint64_t pixels) {
   BufferRef copied = graph.create("picture linear", {pixels * 4 * sizeof(uint16_t)});
@@ -183,7 +188,7 @@ BufferRef Painter::addTo(Graph& graph, const FluidState& fluid, std::string_view
     ParticleViewDesc desc;
     desc.width = width;
     desc.height = height;
-    desc.color = view.color;
+    desc.color = coloring(view, scene_);
     desc.unlit = view.unlit;
     return particles_->addTo(graph, fluid, eye, desc, time_s);
   }
@@ -264,8 +269,9 @@ void Painter::finish(Image& image, std::string_view name, double time_s) const {
 
 std::optional<LegendDesc> Painter::legend(std::string_view name, double time_s) const {
   const View& view = *find(name);
-  if (view.kind != Kind::Particles || !particles_) return std::nullopt;
-  return LegendDesc{view.color, particles_->scaleMax(view.color), time_s};
+  const ParticleColor color = coloring(view, scene_);
+  if (view.kind != Kind::Particles || !particles_ || color == ParticleColor::Fluid) return std::nullopt;
+  return LegendDesc{color, particles_->scaleMax(color), time_s};
 }
 
 }  // namespace rill::offline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace rill {
@@ -39,6 +40,17 @@ Float3 mapColor(ParticleColor color, double t) {
   return {component(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
           component(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
           component(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+Float3 fluidColor(size_t index) {
+  constexpr uint8_t kColors[][3] = {{0, 114, 178}, {230, 159, 0},  {0, 158, 115},  {204, 121, 167},
+                                    {213, 94, 0},  {86, 180, 233}, {240, 228, 66}, {150, 150, 150}};  // sRGB
+  const auto& color = kColors[index % std::size(kColors)];
+  const auto linear = [](uint8_t byte) {
+    const double c = byte / 255.0;
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  };
+  return {linear(color[0]), linear(color[1]), linear(color[2])};
 }
 
 uint8_t srgbByte(double linear) {

@@ -16,6 +16,8 @@ namespace {
 using particle_view::kColors;
 using particle_view::SceneRecord;
 
+static_assert(particle_view::kViewFluids == kMaxFluids);
+
 constexpr uint32_t kLightTexels = 512;  // a side at most
 
 constexpr Double3 kToLight = {-0.36, 1.0, 0.52};  // from the front, left and above: the usual camera sees lit sides
@@ -160,6 +162,11 @@ ParticleScene particleScene(const Scene& scene, const ParticleSet& particles, co
     const Float3 speed = mapColor(ParticleColor::Speed, t), compression = mapColor(ParticleColor::Compression, t);
     record.colors[k] = {speed.x, speed.y, speed.z, 1};
     record.colors[kColors + k] = {compression.x, compression.y, compression.z, 1};
+  }
+  for (size_t k = 0; k < std::min(scene.fluids.size(), kMaxFluids); ++k) {
+    const auto& given = scene.fluids[k].color;
+    const Float3 color = given ? Float3{float(given->x), float(given->y), float(given->z)} : fluidColor(k);
+    record.fluids[k] = {color.x, color.y, color.z, 1};
   }
   if (scene.solver.sleep) record.asleep = {0.18F, 0.18F, 0.18F, 1};
   out.speed_max = roundNicely(fallSpeed(scene, particles));

@@ -92,9 +92,9 @@ ViewPush ParticleView::pushConstants(const FluidState& fluid, const CameraView& 
   // A sphere covers a cell only where it is several cells wide.
   const double pixels = distance > 0 ? push.radius * focal / distance : 0;
   push.cell = pixels < 10 ? 2 : 4;
-  push.compression = desc.color == ParticleColor::Compression ? 1 : 0;
+  push.coloring = desc.color == ParticleColor::Fluid ? kByFluid : desc.color == ParticleColor::Compression ? kByCompression : kBySpeed;
   push.unlit = desc.unlit ? 1 : 0;
-  const double scale = desc.scale_max > 0 ? desc.scale_max : (push.compression ? scene().compression_max : scene().speed_max);
+  const double scale = desc.scale_max > 0 ? desc.scale_max : scaleMax(desc.color);
   push.scale = static_cast<float>(1 / scale);
   return push;
 }
@@ -136,7 +136,7 @@ Expected<void> ParticleView::check(const ParticleViewDesc& desc) {
 }
 
 double ParticleView::scaleMax(ParticleColor color) const {
-  return color == ParticleColor::Speed ? scene().speed_max : scene().compression_max;
+  return color == ParticleColor::Compression ? scene().compression_max : scene().speed_max;
 }
 
 }  // namespace rill

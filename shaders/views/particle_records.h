@@ -25,6 +25,12 @@ RILL_CONSTANT kHiddenCells = 16384;    // maximal occlusion cells tested per sph
 RILL_CONSTANT kOccluderCells = 128;    // maximal occlusion cells per side that a sphere marks
 RILL_CONSTANT kColors = 64;           // entries of a color map
 RILL_CONSTANT kEdges = 12;             // of a box
+RILL_CONSTANT kViewFluids = 8;         // at most
+
+// What the color of a particle shows.
+RILL_CONSTANT kBySpeed = 0;
+RILL_CONSTANT kByCompression = 1;
+RILL_CONSTANT kByFluid = 2;
 
 // The owner of a pixel: a particle's index, or one of these.
 RILL_CONSTANT kSolidBase = 0x80000000u;  // + number of the solid
@@ -65,7 +71,7 @@ struct ViewPush {
   uint width;        // pixels
   uint height;
   uint cell;         // pixels per side of an occlusion cell
-  uint compression;  // 0: colored by speed, 1: by compression
+  uint coloring;     // kBySpeed, kByCompression or kByFluid
   float scale;       // 1 / the value at the color map's end
   uint winners;      // 0: splat depths, 1: splat indices
   uint unlit;        // 1: particles have the color map's exact color, and the surroundings are darker than any color map
@@ -82,6 +88,7 @@ struct SceneRecord {
   vec4 light_texel;  // x: size of a texel, y: range of light depths
   vec4 asleep;       // linear RGB of particles asleep, by speed; w: 1 if the fluid may sleep
   vec4 colors[2 * kColors];  // linear RGB: by speed, by compression
+  vec4 fluids[kViewFluids];  // linear RGB of each fluid
 };
 
 // A solid as the scene describes it.

@@ -19,7 +19,7 @@ layout(std430, set = 0, binding = 7) writeonly buffer Rims { uint rims[]; };
 #include "views/particle_solids.glsl"
 
 const vec3 kSolid = vec3(0.62, 0.50, 0.36);      // sand, against the blues of speed
-const vec3 kSolidGray = vec3(0.36, 0.40, 0.44);  // against the warm colors of compression
+const vec3 kSolidGray = vec3(0.36, 0.40, 0.44);  // against the warm colors of compression, and those of fluids
 
 // Whether a box or a mesh is seen through a point of the image; spheres have a rim of their own.
 bool sees(PlacedSolid solid, vec2 pixel) {
@@ -69,7 +69,7 @@ void main() {
     if (solidHit(solid, eye, rayOf(tangentOf(middle + offset)), facing) < view.near_depth) facing = normal;
     lit += 0.25 * (ambient(facing) * open + kKey * (max(dot(facing, scene.light_to.xyz), 0.0) * light));
   }
-  shaded[index] = packColor(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.compression != 0u ? kSolidGray : kSolid) * lit);
+  shaded[index] = packColor(view.unlit != 0u ? kPlainSolid * min(lit.g, 1.0) : (view.coloring != kBySpeed ? kSolidGray : kSolid) * lit);
   const bool sphere = solid.shape.kind == kShapeSphere;
   const vec3 center = vec3(solid.viewX, solid.viewY, solid.viewZ);
   rims[index] = sphere ? sphereRim(center, solid.radius, tangentOf(middle)) : rimByRays(solid, middle);

@@ -15,12 +15,17 @@ layout(std430, set = 0, binding = 7) writeonly buffer Tint { uvec2 tint[]; };
 #define LIGHT_MAP_READ
 #include "views/particle_light.glsl"
 
-vec3 particleColor(vec4 v) {
-  if (view.compression == 0u && scene.asleep.w > 0.0 && v.xyz == vec3(0.0)) return scene.asleep.rgb;  // what is awake always moves a little
-  float value = (view.compression != 0u ? v.w - 1.0 : length(v.xyz)) * view.scale;
+vec3 particleColor(vec4 v, float fluid) {
+  const bool asleep = scene.asleep.w > 0.0 && v.xyz == vec3(0.0);  // what is awake always moves a little
+  if (view.coloring == kByFluid) {
+    const vec3 own = scene.fluids[min(uint(fluid + 0.5), kViewFluids - 1u)].rgb;
+    return asleep ? mix(own, scene.asleep.rgb, 0.5) : own;
+  }
+  if (view.coloring == kBySpeed && asleep) return scene.asleep.rgb;
+  float value = (view.coloring == kByCompression ? v.w - 1.0 : length(v.xyz)) * view.scale;
   if ((floatBitsToUint(value) & 0x7F800000u) == 0x7F800000u) value = 0.0;
   const float at = clamp(value, 0.0, 1.0) * float(kColors - 1u);
-  const uint entry = min(uint(at), kColors - 2u) + view.compression * kColors;
+  const uint entry = min(uint(at), kColors - 2u) + view.coloring * kColors;
   return mix(scene.colors[entry].rgb, scene.colors[entry + 1u].rgb, at - floor(min(at, float(kColors - 2u))));
 }
 
@@ -52,7 +57,7 @@ void main() {
   if (k >= small + counters[kLargeCount]) return;
   const uint i = k < small ? survivors[k] : survivors[view.count - 1u - (k - small)];
   const vec3 world = particlePoint(position[i].xyz);
-  const vec3 root = sqrt(particleColor(velocity[i]));
+  const vec3 root = sqrt(particleColor(velocity[i], position[i].w));
   if (view.unlit != 0u) {
     tint[i] = uvec2(packUnorm2x16(root.rg), uint(root.b * 65535.0 + 0.5));
     return;

@@ -16,6 +16,7 @@ namespace {
 struct Particle {
   float x, y, z;
   float vx = 0, vy = 0, vz = 0, density = 1;
+  float fluid = 0;
 };
 
 struct Picture {
@@ -45,7 +46,7 @@ class ParticleViewOnGpu : public GpuTest {
     start.origin = origin_;
     std::vector<Float4> positions, velocities;
     for (const Particle& p : particles) {
-      positions.push_back({p.x, p.y, p.z, 0});
+      positions.push_back({p.x, p.y, p.z, p.fluid});
       velocities.push_back({p.vx, p.vy, p.vz, p.density});
       start.positions.push_back({p.x, p.y, p.z});
     }
@@ -378,6 +379,30 @@ TEST_F(ParticleViewOnGpu, UnlitColorsMatchTheMap) {
       EXPECT_LT(mixed, own / 3) << t;
     }
   }
+}
+
+TEST_F(ParticleViewOnGpu, ColorsOfFluidsAreTheirOwnOrTellThemApart) {
+  constexpr uint32_t kSize = 96;
+  scene_.fluids = {{.name = "water"}, {.name = "oil", .color = Double3{0.9, 0.6, 0.1}}, {.name = "sirup"}};
+  const Float3 wanted[] = {fluidColor(0), {0.9f, 0.6f, 0.1f}, fluidColor(2)};
+  for (size_t k = 0; k < 3; ++k) {
+    Particle particle{0, 0, -4, 3, 0, 0, 1.2f};
+    particle.fluid = float(k);
+    const uint32_t pixel = take({particle}, kSize, kSize, 0, ParticleColor::Fluid, true).at(kSize / 2, kSize / 2);
+    EXPECT_NEAR(pixel & 255, srgbByte(wanted[k].x), 2) << k;
+    EXPECT_NEAR((pixel >> 8) & 255, srgbByte(wanted[k].y), 2) << k;
+    EXPECT_NEAR((pixel >> 16) & 255, srgbByte(wanted[k].z), 2) << k;
+  }
+}
+
+TEST(FluidColors, DifferInLightnessOrHue) {
+  for (size_t a = 0; a < kMaxFluids; ++a)
+    for (size_t b = 0; b < a; ++b) {
+      const Float3 p = fluidColor(a), q = fluidColor(b);
+      const int apart =
+          std::abs(srgbByte(p.x) - srgbByte(q.x)) + std::abs(srgbByte(p.y) - srgbByte(q.y)) + std::abs(srgbByte(p.z) - srgbByte(q.z));
+      EXPECT_GT(apart, 80) << a << " " << b;
+    }
 }
 
 TEST_F(ParticleViewOnGpu, HandlesTinyAndOddSizes) {
