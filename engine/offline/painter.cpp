@@ -16,6 +16,9 @@
 namespace rill::offline {
 namespace {
 
+/// 1/m, of fluids without a color of their own among others, where the look is opaque.
+constexpr Float3 kOpaqueAbsorption{300, 300, 300};
+
 enum class Kind { Final, Particles, Data };
 
 struct View {
@@ -124,8 +127,16 @@ Expected<void> Painter::prepare(Device& device, std::string_view name, uint32_t 
       return Error{ErrorKind::BadInput, "look.stage: unknown stage " + inQuotes(scene_.look.stage)};
     look_ = *look;
     look_.surface = *method;
+    const std::vector<FluidBody> bodies = fluidBodies(scene_);
+    if (look_.opaque && !bodies.empty()) {
+      look_.opaque = false;
+      look_.absorption = kOpaqueAbsorption;
+    }
+    if (bodies.size() == 1) look_ = withBody(look_, bodies.front());
     auto made = FluidRenderer::create(device);
     if (!made) return made.error();
+    if (bodies.size() > 1)
+      if (auto set = made->setFluids(bodies); !set) return set;
     fluid_ = std::move(*made);
   }
   if (view->kind != Kind::Final) return {};

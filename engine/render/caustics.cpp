@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string>
 
 #include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
@@ -57,16 +58,17 @@ CausticsRecord causticsRecord(const FluidState& fluid, const FluidLook& look, co
 
 }  // namespace
 
-Expected<Caustics> Caustics::create(Device& device, bool solids) {
+Expected<Caustics> Caustics::create(Device& device, bool solids, uint32_t fluids) {
   Caustics out;
   out.solids_ = solids;
   ModulePipelines pipelines(device);
   out.particleGroups_ = pipelines.make("render/particle_groups");
   out.depths_ = pipelines.make("render/caustics_depths");
-  out.smooth_[0] = pipelines.make("render/caustics_smooth");
+  out.smooth_[0] = pipelines.make("render/caustics_smooth", false, {{"FLUIDS", fluids}});
   out.smooth_[1] = pipelines.make("render/caustics_smooth_vertical");
   out.slopes_ = pipelines.make("render/caustics_slopes");
-  out.rays_ = pipelines.make(solids ? "render/caustics_rays_solids" : "render/caustics_rays");
+  const std::string rays = solids ? "render/caustics_rays_solids" : "render/caustics_rays";
+  out.rays_ = pipelines.make(shaderVariant(device, rays, "_several", fluids > 1), false, {{"FLUIDS", fluids}});
   out.splat_ = pipelines.make(solids ? "render/caustics_splat_solids" : "render/caustics_splat");
   out.resolve_ = pipelines.make(solids ? "render/caustics_resolve_solids" : "render/caustics_resolve");
   out.level_ = pipelines.make("render/caustics_level");
@@ -89,7 +91,7 @@ uint64_t Caustics::mapBytes(const SunView& view, bool solids) {
 }
 
 Caustics::Frame Caustics::addTo(Graph& graph, const FluidState& fluid, const FluidLook& look, const SunView& view, BufferRef thickness,
-                                double thicknessUnit, ImageRef solidDepths) const {
+                                double thicknessUnit, ImageRef solidDepths, BufferRef bodies) const {
   assert(fluid.capacity > 0);
   const CausticsRecord record = causticsRecord(fluid, look, view, thicknessUnit);
   const uint64_t texels = uint64_t{view.width} * view.height, photons = mapTexels(view), layers = solids_ ? 2 : 1;
@@ -119,6 +121,7 @@ Caustics::Frame Caustics::addTo(Graph& graph, const FluidState& fluid, const Flu
                  {"particle_count", particles.count},
                  {"thickness", std::as_const(thickness)},
                  {"light_depth", std::as_const(solidDepths)},
+                 {"look", std::as_const(bodies)},
                  {"first", first},
                  {"last", last},
                  {"rows", rows},

@@ -31,7 +31,8 @@ class Caustics {
   /// The sun's least height, as the sine of its angle above the horizon. Below there are no caustics.
   static constexpr double kLowest = 0.05;
 
-  static Expected<Caustics> create(Device& device, bool solids);
+  /// `fluids`: 1 to kMaxFluids.
+  static Expected<Caustics> create(Device& device, bool solids, uint32_t fluids = 1);
 
   /// What a frame's passes write. The map has kCausticLevels levels, each with one layer, or two with solids, of kCausticFine texels per
   /// side of a texel of the view: half floats of red, green and blue light over the sun's, and a fourth, in the first layer the share of
@@ -46,9 +47,10 @@ class Caustics {
   };
 
   /// `thickness`: of SurfaceStage::addThickness() with a push of the same view and step 1, in counts of `thicknessUnit`, m. `solidDepths`:
-  /// an image of the view's size, depths over the range, with solids. The fluid must have particles and must not be opaque.
+  /// an image of the view's size, depths over the range, with solids. The fluid must have particles and must not be opaque. Of several
+  /// fluids, `thickness` is that of each, and `bodies` the record of addLook().
   Frame addTo(Graph& graph, const FluidState& fluid, const FluidLook& look, const SunView& view, BufferRef thickness, double thicknessUnit,
-              ImageRef solidDepths = {}) const;
+              ImageRef solidDepths = {}, BufferRef bodies = {}) const;
 
   /// Size of a level, texels, and of the whole map, bytes.
   static std::array<uint32_t, 2> levelSize(const SunView& view, uint32_t level);

@@ -102,6 +102,17 @@ Expected<void> checkLook(const FluidLook& look) {
   return {};
 }
 
+Expected<void> checkBodies(std::span<const FluidBody> fluids) {
+  if (fluids.size() > kMaxFluids)
+    return badInput("found " + std::to_string(fluids.size()) + " fluids; expected at most " + std::to_string(kMaxFluids));
+  for (const FluidBody& body : fluids) {
+    if (!body.absorption) continue;
+    for (const float rate : {body.absorption->x, body.absorption->y, body.absorption->z})
+      if (!(rate >= 0 && rate <= 1e6f)) return outOfRange("FluidBody::absorption", double{rate}, "0 to 1e6 (1/m)");
+  }
+  return {};
+}
+
 Expected<void> checkFluid(Graph& graph, const FluidState& fluid) {
   if (fluid.capacity == 0) return {};
   if (fluid.capacity > SurfaceStage::kMaxParticles)

@@ -10,6 +10,7 @@ Expected<void> checkViewport(uint32_t width, uint32_t height);
 Expected<void> checkView(const FluidView& view);
 Expected<void> checkMethod(SurfaceMethod method);
 Expected<void> checkData(SurfaceData data);
+Expected<void> checkBodies(std::span<const FluidBody> fluids);
 Expected<void> checkLook(const FluidLook& look);
 /// `graph` has the size of the positions. A ref of another graph is left to the pass that reads it.
 Expected<void> checkFluid(Graph& graph, const FluidState& fluid);

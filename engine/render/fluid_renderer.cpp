@@ -47,9 +47,12 @@ Expected<void> FluidRendererImpl::makeShade() {
   constexpr const char* kFragments[kShades][2] = {{"render/fluid_shade_fragment", "render/fluid_shade_environment_fragment"},
                                                   {"render/fluid_shade_opaque_fragment", "render/fluid_shade_opaque_environment_fragment"},
                                                   {"render/fluid_shade_crests_fragment", "render/fluid_shade_crests_environment_fragment"}};
+  const uint32_t fluids = static_cast<uint32_t>(bodies.size());
   for (size_t k = 0; k < kShades; ++k) {
+    const bool several = fluids > 1 && Shade(k) != Shade::Opaque;
     auto drawn = graphicsPipeline(*device->device, {.vertex = "render/fluid_shade_vertex",
                                                     .fragment = kFragments[k][environment != nullptr],
+                                                    .constants = {&fluids, several ? 1u : 0u},
                                                     .colors = {&formats.color, 1},
                                                     .depth = formats.depth,
                                                     .depthCompare = VK_COMPARE_OP_ALWAYS,  // the shader compares in m
@@ -67,6 +70,14 @@ Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& pictu
   return makeShade();
 }
 
+Expected<void> FluidRendererImpl::setFluids(std::span<const FluidBody> fluids) {
+  if (auto ok = checkBodies(fluids); !ok) return ok;
+  if (fluids.size() > 1)
+    if (auto made = surface.setFluids(*device->device, static_cast<uint32_t>(fluids.size())); !made) return made;
+  bodies.assign(fluids.begin(), fluids.end());
+  return makeShade();
+}
+
 SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& view) const {
   SurfacePush push = viewPush(view, fluid.origin);
   push.step = sampleStep(push, fluid.spacing, view.focus_m);
@@ -74,7 +85,8 @@ SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& 
 }
 
 SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
-                                      const FluidLook& look, bool whole, BufferRef texels) {
+                                      const FluidLook& given, bool whole, BufferRef texels) {
+  const FluidLook look = bodies.size() == 1 ? withBody(given, bodies.front()) : given;
   if (fluid.capacity == 0) {
     graph.skipped("fluid shade", "there are no particles");
     return targets;
@@ -93,9 +105,10 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     graph.skipped("surface mean normals", "the look is opaque");
   } else {
     normals = meanNormals.addTo(graph, last);
-    thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last);
+    const auto of = bodies.size() > 1 ? SurfaceStage::Of::EachFluid : SurfaceStage::Of::All;
+    thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last, of);
   }
-  look::LookRecord values = lookRecord(look, thick, environment.get());
+  look::LookRecord values = lookRecord(look, thick, environment.get(), bodies);
   const bool lit = !look.opaque && (look.scattering.x > 0 || look.scattering.y > 0 || look.scattering.z > 0);
   BufferRef sunward;
   if (lit) {
@@ -157,6 +170,8 @@ FluidRenderer::FluidRenderer(FluidRenderer&&) noexcept = default;
 FluidRenderer& FluidRenderer::operator=(FluidRenderer&&) noexcept = default;
 
 Expected<void> FluidRenderer::setEnvironment(const EnvironmentPicture& picture) { return impl_->setEnvironment(picture); }
+
+Expected<void> FluidRenderer::setFluids(std::span<const FluidBody> fluids) { return impl_->setFluids(fluids); }
 
 Expected<void> FluidRenderer::check(const FluidView& view) { return checkView(view); }
 

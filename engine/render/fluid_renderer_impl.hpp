@@ -23,6 +23,7 @@ class FluidRendererImpl {
   Expected<void> create(Device& device, const TargetFormats& formats);
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
+  Expected<void> setFluids(std::span<const FluidBody> fluids);
   /// `whole`: also writes pixels of the surface without fluid. `texels`: of the environment, if any.
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole,
                      BufferRef texels = {});
@@ -31,6 +32,7 @@ class FluidRendererImpl {
   DeviceImpl* device = nullptr;
   TargetFormats formats;
   std::unique_ptr<Environment> environment;  ///< null: the built-in sky
+  std::vector<FluidBody> bodies;             ///< empty: one fluid, that of the look
   SurfaceStage surface;
   MeanNormals meanNormals;
   SurfaceBuffers last;  ///< of the frame being declared

@@ -1,5 +1,6 @@
 #include "render/look_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -10,12 +11,29 @@ constexpr Float3 kToSun{-0.30f, 0.84f, 0.45f};
 
 }  // namespace
 
-look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment) {
+static_assert(look::kMaxLookFluids == kMaxFluids);
+
+FluidLook withBody(FluidLook look, const FluidBody& body) {
+  if (!body.absorption) return look;
+  look.absorption = *body.absorption;
+  look.scatter = body.scatter;
+  look.scattering = look.emission = {0, 0, 0};
+  return look;
+}
+
+look::LookRecord lookRecord(const FluidLook& given, const surface::SurfacePush& thickness, const Environment* environment,
+                            std::span<const FluidBody> fluids) {
+  const FluidLook look = fluids.size() == 1 ? withBody(given, fluids.front()) : given;
   look::LookRecord record{};
   record.absorption = {look.absorption.x, look.absorption.y, look.absorption.z, look.refractionIndex};
   record.scatter = {look.scatter.x, look.scatter.y, look.scatter.z, look.opaque ? 1.0f : 0.0f};
   record.emission = {look.emission.x, look.emission.y, look.emission.z, 0};
   record.scattering = {look.scattering.x, look.scattering.y, look.scattering.z, look.meanCosine};
+  for (size_t k = 0; k < std::min(fluids.size(), kMaxFluids); ++k) {
+    const FluidLook own = withBody(look, fluids[k]);
+    record.fluid_absorption[k] = {own.absorption.x, own.absorption.y, own.absorption.z, fluids[k].absorption ? 0.0f : 1.0f};
+    record.fluid_scatter[k] = {own.scatter.x, own.scatter.y, own.scatter.z, 0};
+  }
   const EnvironmentSun* sun = environment && environment->sun() ? &*environment->sun() : nullptr;
   const Float3 s = look.toSun.value_or(sun ? sun->direction : kToSun);
   const float size = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z);

@@ -7,8 +7,11 @@
 
 namespace rill {
 
-/// `thickness`: of the buffer that absorption reads. `environment` may be null.
-look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment);
+/// The look of a scene whose only fluid has this body.
+FluidLook withBody(FluidLook look, const FluidBody& body);
+/// `thickness`: of the buffer that absorption reads. `environment` may be null. `fluids`: as FluidRenderer::setFluids().
+look::LookRecord lookRecord(const FluidLook& look, const surface::SurfacePush& thickness, const Environment* environment,
+                            std::span<const FluidBody> fluids = {});
 /// A uniform buffer with the record, written by a pass of its own.
 BufferRef addLook(Graph& graph, const look::LookRecord& record);
 

@@ -58,8 +58,8 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device, bool storageReads) {
   stage.order_ = pipelines.make("render/surface_order");
   stage.tiles_ = pipelines.make("render/surface_tiles");
   stage.compose_ = pipelines.make("render/surface_compose");
-  stage.thickness_ = pipelines.make("render/surface_thickness");
-  stage.thicknessNoScene_ = pipelines.make("render/surface_thickness_no_scene");
+  stage.thickness_ = pipelines.make("render/surface_thickness", false, {{"FLUIDS", 1}});
+  stage.thicknessNoScene_ = pipelines.make("render/surface_thickness_no_scene", false, {{"FLUIDS", 1}});
   stage.planes_ = pipelines.make("render/surface_planes", texels);
   stage.blend_ = pipelines.make("render/surface_blend", texels);
   stage.edges_ = pipelines.make("render/surface_edges", texels);

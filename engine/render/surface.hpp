@@ -49,11 +49,17 @@ class SurfaceStage {
   SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole, double focus,
                        const SurfaceSettings& settings = {}) const;
 
-  /// Thickness along each sample's ray in units of `push.unit`, one sample per `push.step` pixels.
+  /// For addThickness() of `count` fluids, 1 to kMaxFluids.
+  Expected<void> setFluids(Device& device, uint32_t count);
+
+  /// Which thicknesses addThickness() computes.
+  enum class Of : uint8_t { All, EachFluid };
+
+  /// Thickness along each sample's ray in units of `push.unit`, one sample per `push.step` pixels. Of each fluid: as many grids of samples.
   /// `sceneDepth`: m per pixel, hides fluid behind it; may be an empty ref.
   /// `surface`: the result of addTo() for the same state, which counts kBoundHits; may be null.
   BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,
-                         BufferRef sceneDepth, SurfaceBuffers* surface) const;
+                         BufferRef sceneDepth, SurfaceBuffers* surface, Of of = Of::All) const;
   /// The camera with the fields that addThickness() needs.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
@@ -88,11 +94,12 @@ class SurfaceStage {
 
   DeviceImpl* device_ = nullptr;
   bool storageReads_ = false;
+  uint32_t fluids_ = 1;
   CurvatureFlow flow_;
   const ComputePipeline *particleGroups_ = nullptr, *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
                         *pick_ = nullptr, *scatter_ = nullptr, *order_ = nullptr, *planes_ = nullptr, *blend_ = nullptr, *tiles_ = nullptr,
                         *compose_ = nullptr, *edges_ = nullptr, *edgesFiltered_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr,
-                        *thickness_ = nullptr, *thicknessNoScene_ = nullptr;
+                        *thickness_ = nullptr, *thicknessNoScene_ = nullptr, *fluidThickness_ = nullptr, *fluidThicknessNoScene_ = nullptr;
 };
 
 /// Pixels per side of a sample, such that a spacing at `depth` has `samples` to twice as many samples.

@@ -1,4 +1,5 @@
 // The thickness of the fluid along rays, as passes.
+#include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
 #include "render/surface.hpp"
 
@@ -23,16 +24,29 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   return camera;
 }
 
+Expected<void> SurfaceStage::setFluids(Device& device, uint32_t count) {
+  ModulePipelines pipelines(device);
+  const ComputePipeline* behindScene = pipelines.make("render/surface_thickness", false, {{"FLUIDS", count}});
+  const ComputePipeline* free = pipelines.make("render/surface_thickness_no_scene", false, {{"FLUIDS", count}});
+  if (auto made = pipelines.result(); !made) return made;
+  fluidThickness_ = behindScene;
+  fluidThicknessNoScene_ = free;
+  fluids_ = count;
+  return {};
+}
+
 BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
-                                     BufferRef sceneDepth, SurfaceBuffers* surface) const {
+                                     BufferRef sceneDepth, SurfaceBuffers* surface, Of of) const {
+  const bool each = of == Of::EachFluid && fluids_ > 1, hidden = sceneDepth != BufferRef{};
   BufferRef own;
   if (!surface) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
-  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4});
+  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4 * (each ? fluids_ : 1)});
   addFill(graph, names.clear, {{&thickness, 0}, {surface ? nullptr : &own, 0}});
   if (fluid.capacity == 0) return thickness;
   const CountedParticles particles = surface ? surface->particles : countParticles(graph, fluid, particleGroups_, kSurfaceGroup);
   BufferRef& counters = surface ? surface->counters : own;
-  addDispatch(graph, names.pass, sceneDepth == BufferRef{} ? thicknessNoScene_ : thickness_, particles.groups, push,
+  const ComputePipeline* pipeline = each ? (hidden ? fluidThickness_ : fluidThicknessNoScene_) : hidden ? thickness_ : thicknessNoScene_;
+  addDispatch(graph, names.pass, pipeline, particles.groups, push,
               {{"position", fluid.position},
                {"particle_count", particles.count},
                {"thickness", thickness},

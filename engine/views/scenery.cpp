@@ -76,6 +76,10 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   auto stage = SurfaceStage::create(device);
   if (!stage) return stage.error();
   out->stage_ = *stage;
+  if (std::vector<FluidBody> bodies = fluidBodies(scene); bodies.size() > 1) out->fluids_ = std::move(bodies);
+  const auto fluids = static_cast<uint32_t>(std::max<size_t>(out->fluids_.size(), 1));
+  if (fluids > 1)
+    if (auto set = out->stage_.setFluids(device, fluids); !set) return set.error();
   auto meshes = SceneMeshes::create(device, scene);
   if (!meshes) return meshes.error();
   out->meshes_ = *std::move(meshes);
@@ -96,7 +100,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   };
   const std::string around = out->hasGround() ? (solids ? "ground_solids" : "ground") : "sky", sky = environment ? "_environment" : "";
   if (scene.look.caustics && (solids || out->hasGround())) {
-    auto caustics = Caustics::create(device, solids);
+    auto caustics = Caustics::create(device, solids, fluids);
     if (!caustics) return caustics.error();
     out->caustics_ = *caustics;
   }
@@ -133,11 +137,15 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     groundShader = "views/scenery_" + around + (out->hasGround() ? suffix : sky + "_fragment");
     solidShader = "views/scenery_solid" + suffix;
     meshShader = "views/scenery_mesh" + suffix;
-    GraphicsPipelineDesc ground = desc("views/scenery_ground_vertex", groundShader);
-    ground.depthCompare = VK_COMPARE_OP_ALWAYS;
-    all.push_back({drawing.ground, ground});
-    if (out->hasRayCast_) all.push_back({drawing.solid, desc("views/scenery_solid_vertex", solidShader)});
-    if (out->hasMeshes()) all.push_back({drawing.mesh, desc("views/scenery_mesh_vertex", meshShader)});
+    const auto inShadow = [&](const GraphicsPipeline*& pipeline, std::string_view vertex, std::string_view fragment, VkCompareOp compare) {
+      GraphicsPipelineDesc made = desc(vertex, fragment);
+      made.depthCompare = compare;
+      if (fluids > 1) made.constants = {&fluids, 1};
+      all.push_back({pipeline, made});
+    };
+    inShadow(drawing.ground, "views/scenery_ground_vertex", groundShader, VK_COMPARE_OP_ALWAYS);
+    if (out->hasRayCast_) inShadow(drawing.solid, "views/scenery_solid_vertex", solidShader, VK_COMPARE_OP_GREATER);
+    if (out->hasMeshes()) inShadow(drawing.mesh, "views/scenery_mesh_vertex", meshShader, VK_COMPARE_OP_GREATER);
   }
   for (const Wanted& wanted : all) {
     auto made = graphicsPipeline(device, wanted.desc);
@@ -251,7 +259,7 @@ void Scenery::addSolids(Graph& graph, SceneTargets& targets, const SurfacePush& 
 
 /// The map of caustics; empty where there are none.
 BufferRef Scenery::addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit,
-                               ImageRef lightDepth) const {
+                               ImageRef lightDepth, BufferRef record) const {
   if (!caustics_) return {};
   const SunView view = sunView();
   const char* reason = fluid.capacity == 0                ? "there are no particles"
@@ -262,7 +270,7 @@ BufferRef Scenery::addCaustics(Graph& graph, const FluidState& fluid, const Flui
     graph.skipped("caustics rays", reason);
     return {};
   }
-  return caustics_->addTo(graph, fluid, look, view, shadow, unit, lightDepth).map;
+  return caustics_->addTo(graph, fluid, look, view, shadow, unit, lightDepth, record).map;
 }
 
 SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
@@ -274,10 +282,11 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
   BufferRef shadow;
   if (solids || hasGround())
-    shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr);  // a particle spans five texels at most
+    shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr,
+                                 SurfaceStage::Of::EachFluid);  // a particle spans five texels at most
   else
     graph.skipped(kFluidShadow.pass, "there is nothing that it falls on");
-  const BufferRef record = addLook(graph, lookRecord(look, light, environment_));
+  const BufferRef record = addLook(graph, lookRecord(look, light, environment_, fluids_));
   BufferRef poses;
   ImageRef lightDepth;
   const SceneMeshes::Refs meshes = hasMeshes() ? meshes_.addTo(graph) : SceneMeshes::Refs{};
@@ -290,7 +299,7 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   } else {
     graph.skipped("scenery solids", "the scene has no solids");
   }
-  const BufferRef caustics = addCaustics(graph, fluid, look, shadow, double{light.unit}, lightDepth);
+  const BufferRef caustics = addCaustics(graph, fluid, look, shadow, double{light.unit}, lightDepth, record);
   const Drawing& drawing = caustics == BufferRef{} ? plain_ : refracted_;
   const Named lit[] = {{"scene", scene},      {"look", record},        {"fluid_shadow", shadow},     {"light_depth", lightDepth},
                        {"placed", poses},     {"environment", texels}, {"mesh_parts", meshes.parts}, {"mesh_triangles", meshes.triangles},

@@ -2,6 +2,7 @@
 // What stands around the fluid: sky, floor, solids, the domain's edges or a glass tank, outlines of mouths and drains, drawn as graphics
 // passes with shadows of solids and fluid.
 #include <memory>
+#include <vector>
 
 #include "graph/shader_pass.hpp"
 #include "render/caustics.hpp"
@@ -46,8 +47,8 @@ class Scenery {
   bool hasEdges() const { return hasDomain() && !tank_; }
 
   ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
-  BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit,
-                        ImageRef lightDepth) const;
+  BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit, ImageRef lightDepth,
+                        BufferRef record) const;
   void addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,
                 const surface::SurfacePush& camera, double time_s, BufferRef pixels = {}) const;
   /// What is lit by the sun.
@@ -59,6 +60,7 @@ class Scenery {
   bool hasMeshes() const { return !meshes_.empty(); }
 
   const Environment* environment_ = nullptr;
+  std::vector<FluidBody> fluids_;  ///< of a scene with several; otherwise empty
   SceneBuffers buffers_;
   SceneMeshes meshes_;
   std::optional<GlassTank> tank_;  ///< with look.stage tank

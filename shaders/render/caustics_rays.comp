@@ -1,10 +1,16 @@
 #version 460
 // Where the sunlight of each photon lands: refracted where it enters the fluid and where it leaves it, absorbed in between.
-// With SOLIDS it may land on them.
+// With SOLIDS it may land on them. SEVERAL, a binding number: of fluids with absorptions of their own.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/caustics.glsl"
 #include "render/fresnel.glsl"
+#ifdef SEVERAL
+#include "render/look_records.h"
+layout(std140, set = 0, binding = SEVERAL) uniform Look { LookRecord look; };
+layout(std430, set = 0, binding = SEVERAL + 1) readonly buffer Thickness { uint thickness[]; };  // of each fluid
+#include "render/fluid_bodies.glsl"
+#endif
 
 layout(local_size_x = kCausticGroup) in;
 layout(std430, set = 0, binding = 1) readonly buffer Smooth { vec4 smoothed[]; };
@@ -53,6 +59,28 @@ vec2 bodyAt(vec2 at) {
   const vec2 part = fract(at);
   return mix(mix(smoothed[cornerOf(at, ivec2(0, 0))].zw, smoothed[cornerOf(at, ivec2(1, 0))].zw, part.x),
              mix(smoothed[cornerOf(at, ivec2(0, 1))].zw, smoothed[cornerOf(at, ivec2(1, 1))].zw, part.x), part.y);
+}
+
+// 1/m, mean along the sun's ray.
+vec3 absorptionAt(vec2 at) {
+#ifdef SEVERAL
+  const vec2 part = fract(at);
+  Interior sums = Interior(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+  float meters = 0.0;
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
+    float counts = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const ivec2 corner = ivec2(k & 1, k >> 1);
+      const vec2 share = mix(1.0 - part, part, vec2(corner));
+      counts += share.x * share.y * float(thickness[fluid * sun.width * sun.height + cornerOf(at, corner)]);
+    }
+    addFluid(sums, fluid, counts * sun.thickness);
+    meters += counts * sun.thickness;
+  }
+  return meanOf(sums, meters).absorption;
+#else
+  return sun.absorption.rgb;
+#endif
 }
 
 float alongWorld(int axis, vec3 p) { return dot(sun.world[axis].xyz, p) + sun.world[axis].w; }
@@ -164,7 +192,7 @@ void main() {
     }
   // Of the path between the surfaces, what is fluid; its sums over particles vary about 1
   const float fluid = clamp(body.y / max(straight, 0.1 * sun.spacing), 0.0, 1.25) * wet;
-  const vec3 light = share * leaving * exp(-sun.absorption.rgb * fluid);
+  const vec3 light = share * leaving * exp(-absorptionAt(at) * fluid);
   const vec2 place = (landing.xy / sun.texel + 0.5) * float(kCausticFine) - 0.5;
   const float texels = min(whole * float(kCausticFine) / sun.texel, 6e4) + 1.0;  // never 0
   landings[index] = uvec4(floatBitsToUint(place), packHalf2x16(light.rg), packHalf2x16(vec2(light.b, solid ? -texels : texels)));

@@ -11,7 +11,8 @@ const ivec2 kAlong = ivec2(0, 1);
 #else
 layout(std430, set = 0, binding = 1) readonly buffer First { uint first[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Last { uint last[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };
+layout(constant_id = 0) const uint FLUIDS = 1u;
+layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };  // of each fluid
 layout(std430, set = 0, binding = 4) writeonly buffer Rows { vec4 rows[]; };
 const ivec2 kAlong = ivec2(1, 0);
 #endif
@@ -26,7 +27,9 @@ vec4 texelAt(ivec2 at) {
 #ifdef VERTICAL
   return rows[index];
 #else
-  const float meters = float(thickness[index]) * sun.thickness;
+  uint counts = thickness[index];
+  for (uint fluid = 1u; fluid < FLUIDS; ++fluid) counts += thickness[fluid * sun.width * sun.height + index];
+  const float meters = float(counts) * sun.thickness;
   if (first[index] == kNoFirst) return vec4(noDepth(), noDepth(), 0.0, meters);
   return vec4(fromOrdered(uvec3(first[index], last[index], 0u)).xy, 1.0, meters);
 #endif

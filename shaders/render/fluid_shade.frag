@@ -12,7 +12,8 @@ layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; 
 layout(std430, set = 0, binding = 3) readonly buffer SceneColor { uvec2 scene_color[]; };
 layout(std430, set = 0, binding = 4) readonly buffer SceneDepth { float scene_depth[]; };
 #ifndef OPAQUE
-layout(std430, set = 0, binding = 5) readonly buffer Thickness { uint thickness[]; };
+#include "render/fluid_bodies.glsl"
+layout(std430, set = 0, binding = 5) readonly buffer Thickness { uint thickness[]; };  // of each fluid
 layout(std430, set = 0, binding = 6) readonly buffer MeanNormals { uint mean_normals[]; };  // packed mean normal of each sample with fluid
 layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
 #include "render/surface_mean_normal.glsl"
@@ -71,15 +72,26 @@ vec3 sceneBilinear(vec2 pixel, float z) {
              mix(sceneUnlessInFront(ivec2(base.x, next.y), own, z), sceneUnlessInFront(next, own, z), part.x), part.y);
 }
 
-float thicknessAt(vec2 pixel) {
+// Length of the ray in the fluid, m, and the mean over it of what is there.
+float thicknessAt(vec2 pixel, out Interior interior) {
   const uint step = uint(look.finish.y);
   const ivec2 grid = ivec2((uvec2(view.width, view.height) + step - 1u) / step);
   const vec2 at = clamp(pixel / float(step) - 0.5, vec2(0.0), vec2(grid) - 1.0);
   const ivec2 base = ivec2(at), next = min(base + 1, grid - 1);
   const vec2 part = at - vec2(base);
-  const float a = float(thickness[base.y * grid.x + base.x]), b = float(thickness[base.y * grid.x + next.x]);
-  const float c = float(thickness[next.y * grid.x + base.x]), d = float(thickness[next.y * grid.x + next.x]);
-  return mix(mix(a, b, part.x), mix(c, d, part.x), part.y) * look.finish.z;
+  float sum = 0.0;
+  interior = FLUIDS == 1u ? lookInterior() : Interior(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
+    const int first = int(fluid) * grid.x * grid.y, upper = first + base.y * grid.x, lower = first + next.y * grid.x;
+    const float a = float(thickness[upper + base.x]), b = float(thickness[upper + next.x]);
+    const float c = float(thickness[lower + base.x]), d = float(thickness[lower + next.x]);
+    const float meters = mix(mix(a, b, part.x), mix(c, d, part.x), part.y) * look.finish.z;
+    if (FLUIDS == 1u) return meters;
+    addFluid(interior, fluid, meters);
+    sum += meters;
+  }
+  interior = meanOf(interior, sum);
+  return sum;
 }
 
 struct MeanNormal {
@@ -132,15 +144,15 @@ const float kLeastGlow = 0.001;  // of a white surface in the sky's light; less 
 
 // Sunlight that is scattered once into a ray through the fluid. Between its ends the length of the light's path is taken to
 // change evenly.
-vec3 scatteredSun(vec3 point, vec3 along, float size) {
+vec3 scatteredSun(vec3 point, vec3 along, float size, Interior interior) {
   const float g = look.scattering.w, least = 1.0 - abs(g);
   const float narrow = max(1.0 + g * g - 2.0 * g * dot(worldDirection(along), look.light.xyz), least * least);
   const float phase = (1.0 - g * g) / (12.566371 * narrow * sqrt(narrow));
-  const vec3 most = look.scattering.rgb * sunlight() * (3.1415927 * phase * size);
+  const vec3 most = look.scattering.rgb * interior.scattering * sunlight() * (3.1415927 * phase * size);
   if (max(most.r, max(most.g, most.b)) < kLeastGlow) return vec3(0.0);
   const float first = depthBehindSun(worldPoint(point)), last = depthBehindSun(worldPoint(point + size * along));
   // The mean of exp(-loss) between both ends; each end by itself, since their difference can be a large number of either sign.
-  const vec3 near = look.absorption.rgb * first, far = look.absorption.rgb * (size + last), rise = far - near;
+  const vec3 near = interior.absorption * first, far = interior.absorption * (size + last), rise = far - near;
   const bvec3 even = lessThan(abs(rise), vec3(1e-3));
   const vec3 mean = mix((exp(-near) - exp(-far)) / mix(rise, vec3(1.0), even), exp(-near) * (1.0 - 0.5 * rise), even);
   return most * (1.0 - fresnel(1.0, look.absorption.w)) * mean;
@@ -158,7 +170,8 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   // A drop does not refract, because its refraction would apply to all fluid behind it; nor does the near plane with the eye in the fluid.
   const float bends = z <= nearestDrawn() ? 0.0 : smoothstep(kRefractionFade.x, kRefractionFade.y, mean_normal.coherence);
   const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), bends));
-  float inside = thicknessAt(middle);
+  Interior interior;
+  float inside = thicknessAt(middle, interior);
   // Whitewater is full of air and scatters white light.
   const float white = look.finish.w * (1.0 - smoothstep(kWhitewaterFade.x, kWhitewaterFade.y, mean_normal.coherence)) *
                       (1.0 - exp(-inside / view.spacing));
@@ -173,7 +186,10 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
       hit_pixel = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
       hit_depth = scene_depth[uint(hit_pixel.y) * view.width + uint(hit_pixel.x)];
       ray_length = max(ray_length + (min(hit_depth, farthest) - at.z) / max(ray_length < inside ? bent.z : sight.z, 0.1), 0.0);
-      inside = max(inside, thicknessAt(hit_pixel));
+      Interior there;
+      const float next = thicknessAt(hit_pixel, there);
+      if (FLUIDS > 1u && next > inside) interior = there;
+      inside = max(inside, next);
     }
   }
   // The scene in front of the fluid is not refracted.
@@ -181,10 +197,10 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
     hit_pixel = middle;
     ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
   }
-  const vec3 through = exp(-look.absorption.rgb * min(inside, ray_length));
-  vec3 body = sceneBilinear(hit_pixel, z) * through + (look.scatter.rgb * scattered + look.emission.rgb) * (1.0 - through);
+  const vec3 through = exp(-interior.absorption * min(inside, ray_length));
+  vec3 body = sceneBilinear(hit_pixel, z) * through + (interior.scatter * scattered + interior.emission) * (1.0 - through);
 #ifdef CRESTS
-  body += bends * scatteredSun(point, bent, min(inside, ray_length));
+  body += bends * scatteredSun(point, bent, min(inside, ray_length), interior);
 #endif
   // Multiple scattering leaves no side dark.
   const float facing_sun = 0.5 + 0.5 * dot(worldDirection(mean_normal.direction), look.light.xyz);
@@ -196,7 +212,9 @@ vec3 reflectedLight(ivec2 pixel, vec3 sight, vec3 mirrored, float spread) {
   const vec3 sky = skyColor(mirrored, look.light.xyz, spread);
   const float past = smoothstep(kGrazing.x, kGrazing.y, dot(mirrored, sight)) * (1.0 - skyShare(mirrored));
   if (past <= 0.0) return sky;
-  return mix(sky, sceneAt(pixel) * exp(-look.absorption.rgb * thicknessAt(vec2(pixel) + 0.5)), past);
+  Interior interior;
+  const float inside = thicknessAt(vec2(pixel) + 0.5, interior);
+  return mix(sky, sceneAt(pixel) * exp(-interior.absorption * inside), past);
 }
 #endif
 

@@ -22,6 +22,7 @@ void visitSample(vec3 center, float radius, ivec2 p) {
   ++visited;
   if (t <= uintBitsToFloat(depth[uint(p.y) * sampleGrid().x + uint(p.x)]) + 1e-3 * view.spacing) ++own;
 }
+void beginVisit(uint owner) {}
 void endVisit(uint owner) {
   if (visited > 0u) atomicAdd(inside[owner], visited);
   if (own > 0u) atomicAdd(owned[owner], own);

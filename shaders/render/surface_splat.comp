@@ -18,6 +18,7 @@ void visitSample(vec3 center, float radius, ivec2 p) {
   const uint bits = floatBitsToUint(t);
   if (bits < ATOMIC_LOAD(depth[at])) atomicMin(depth[at], bits);
 }
+void beginVisit(uint owner) {}
 void endVisit(uint owner) {}
 #include "render/surface_visit.glsl"
 

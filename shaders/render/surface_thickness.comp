@@ -1,9 +1,11 @@
 #version 460
 // Thickness of the fluid along each sample's ray: each particle spreads its volume over a disc. With NO_SCENE nothing occludes it.
+// Of several fluids the thickness of each, one grid of samples after the other.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
+layout(constant_id = 0) const uint FLUIDS = 1u;
 layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 1) buffer Thickness { uint thickness[]; };  // in view.unit
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
@@ -21,11 +23,19 @@ bool behindScene(ivec2 at, float z) {
 #endif
 }
 
+uint first_sample = 0u;  // of the grid of the particle's fluid
+
+void beginVisit(uint owner) {
+  if (FLUIDS == 1u) return;
+  const uint fluid = uint(position[groupIndex() * kSurfaceGroup + owner].w + 0.5);
+  first_sample = min(fluid, FLUIDS - 1u) * sampleGrid().x * sampleGrid().y;
+}
+
 void add(ivec2 at, float z, float meters) {
   const ivec2 grid = ivec2(sampleGrid());
   if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, grid)) || behindScene(at, z)) return;
   const uint amount = uint(meters / view.unit + 0.5);
-  if (amount > 0u) atomicAdd(thickness[uint(at.y * grid.x + at.x)], amount);
+  if (amount > 0u) atomicAdd(thickness[first_sample + uint(at.y * grid.x + at.x)], amount);
 }
 
 // The integral of (1 - r^2 / R^2)^2 over the disc is pi R^2 / 3.
@@ -57,6 +67,9 @@ void main() {
   live = live && center.z > view.near_depth && shownWithin(center, view.radius, float(view.step));
   const float side = metersAPixel(center.z) * float(view.step);
   const bool small = view.radius < 1.5 * side;
-  if (live && small) addSmall(center, side);
+  if (live && small) {
+    beginVisit(gl_LocalInvocationIndex);
+    addSmall(center, side);
+  }
   visitSphere(live && !small, center, view.radius);
 }

@@ -1,5 +1,5 @@
-// visitSphere() calls visitSample() for each sample that an invocation's sphere may cover, then endVisit(). Large spheres are shared by
-// the workgroup: lavapipe ends a loop after 65,535 iterations. Define both functions before including; needs `counters`.
+// visitSphere() calls beginVisit(), visitSample() for each sample that an invocation's sphere may cover, then endVisit(). Large spheres are
+// shared by the workgroup: lavapipe ends a loop after 65,535 iterations. Define the functions before including; needs `counters`.
 
 const int kOwnSamples = 1024;   // samples of a sphere that one invocation visits by itself
 const int kMaxVisits = 60000;  // samples per invocation over all large spheres of its workgroup
@@ -21,6 +21,7 @@ void visitSphere(bool live, vec3 center, float radius) {
       large_sphere[slot] = vec4(center, radius);
       large_owner[slot] = gl_LocalInvocationIndex;
     } else {
+      beginVisit(gl_LocalInvocationIndex);
       for (int y = rect.y; y <= rect.w; ++y)
         for (int x = rect.x; x <= rect.z; ++x) visitSample(center, radius, ivec2(x, y));
       endVisit(gl_LocalInvocationIndex);
@@ -34,6 +35,7 @@ void visitSphere(bool live, vec3 center, float radius) {
     const int area = areaOf(rect), width = rect.z - rect.x + 1, each = (area + int(kSurfaceGroup) - 1) / int(kSurfaceGroup);
     left -= each;
     if (left >= 0) {
+      beginVisit(large_owner[k]);
       for (int i = int(gl_LocalInvocationIndex); i < area; i += int(kSurfaceGroup))
         visitSample(sphere.xyz, sphere.w, rect.xy + ivec2(i % width, i / width));
       endVisit(large_owner[k]);

@@ -1,12 +1,14 @@
 // Light on what stands around the fluid: the floor and the solids. Needs `scene` and `look`; positions are relative to the scene's origin.
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/sky.glsl"
+#include "render/fluid_bodies.glsl"
 
 #ifdef CAUSTICS
 #include "render/caustics_records.h"
 layout(std430, set = 0, binding = 2) readonly buffer Caustics { uvec2 caustics[]; };  // of Caustics::addTo()
 #else
-layout(std430, set = 0, binding = 2) readonly buffer FluidShadow { uint fluid_shadow[]; };  // thickness towards the light, in look.finish.z
+// Thickness of each fluid towards the light, in look.finish.z.
+layout(std430, set = 0, binding = 2) readonly buffer FluidShadow { uint fluid_shadow[]; };
 #endif
 #ifdef SOLIDS
 layout(set = 0, binding = 3) uniform texture2D light_depth;  // of the solids, from the light
@@ -33,15 +35,22 @@ vec3 throughFluid(vec3 p) {
   const vec4 across = shadowWeights(columns, part.x, size.x), down = shadowWeights(rows, part.y, size.y);
   const uvec4 x = uvec4(clamp(columns, ivec4(0), ivec4(size.x - 1)));
   // Twice as wide as a texel is: the disc of the sun blurs the edge.
-  float counts = 0.0;
-  RILL_LOOP for (int k = 0; k < 4; ++k) {
-    const uint first = uint(clamp(rows[k], 0, size.y - 1)) * scene.counts.y;
-    const vec4 row = vec4(fluid_shadow[first + x.x], fluid_shadow[first + x.y], fluid_shadow[first + x.z], fluid_shadow[first + x.w]);
-    counts += down[k] * dot(across, row);
+  float meters = 0.0;
+  vec3 depth = vec3(0.0);
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
+    float counts = 0.0;
+    RILL_LOOP for (int k = 0; k < 4; ++k) {
+      const uint first = (fluid * scene.counts.z + uint(clamp(rows[k], 0, size.y - 1))) * scene.counts.y;
+      const vec4 row = vec4(fluid_shadow[first + x.x], fluid_shadow[first + x.y], fluid_shadow[first + x.z], fluid_shadow[first + x.w]);
+      counts += down[k] * dot(across, row);
+    }
+    const float own = counts * look.finish.z;
+    const vec3 rates = FLUIDS == 1u ? look.absorption.rgb : look.fluid_absorption[fluid].rgb;
+    meters += own;
+    depth += rates * own;
   }
-  const float meters = counts * look.finish.z;
   const float spread = 1.0 - exp(-meters / (2.0 * view.spacing));  // what the surface bends away
-  return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-look.absorption.rgb * meters) * (1.0 - 0.45 * spread);
+  return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-depth) * (1.0 - 0.45 * spread);
 }
 #endif
 

@@ -114,5 +114,18 @@ TEST_F(RendererInput, RejectsInvalidEnumsAndLooks) {
   EXPECT_EQ(compileError(state(), view, {}, true), "invalid SurfaceData value 200");
 }
 
+TEST_F(RendererInput, RejectsInvalidFluids) {
+  auto renderer = FluidRenderer::create(device());
+  ASSERT_TRUE(renderer);
+  const auto error = [&](const std::vector<FluidBody>& fluids) {
+    const auto set = renderer->setFluids(fluids);
+    return set ? std::string("accepted") : set.error().message;
+  };
+  EXPECT_EQ(error(std::vector<FluidBody>(kMaxFluids)), "accepted");
+  EXPECT_EQ(error(std::vector<FluidBody>(kMaxFluids + 1)), "found 9 fluids; expected at most 8");
+  EXPECT_EQ(error({{}, {.absorption = Float3{1, -2, 3}}}), "FluidBody::absorption is -2; expected 0 to 1e6 (1/m)");
+  EXPECT_EQ(error({{.absorption = Float3{kNan, 0, 0}}}), "FluidBody::absorption is nan; expected 0 to 1e6 (1/m)");
+}
+
 }  // namespace
 }  // namespace rill::test

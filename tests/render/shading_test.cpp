@@ -126,6 +126,76 @@ TEST_F(FlatPool, AbsorptionFollowsBeerLambert) {
     }
 }
 
+// Through two layers, by the sum of their lengths times their absorptions.
+TEST_F(FlatPool, LayersAbsorbOneAfterTheOther) {
+  constexpr double kRates[2][3] = {{2.5, 0.8, 0.2}, {0.1, 0.7, 3}};
+  bodies_ = {{.absorption = Float3{2.5f, 0.8f, 0.2f}}, {}};
+  FluidLook look = clear();
+  look.absorption = {0.1f, 0.7f, 3};  // of the other
+  for (const double upper : {0.2, 0.5})
+    for (const double angle : {0.0, 40 * kDegree}) {
+      const double lower = 0.7 - upper;
+      auto particles = block({-2.6, -0.7, -2.6}, {2.6, 0, 2.6}, 0);
+      for (Float4& p : particles) p.w = double{p.y} > -upper ? 1.0f : 0.0f;
+      fill(particles);
+      const auto light = through(parallel(angle), look);
+      const Color whole = mean(light);
+      const double left = 1 - fresnel(angle, double{look.refractionIndex}), slant = 1 / std::cos(angle);
+      for (size_t c = 0; c < 3; ++c) {
+        const double depth = (kRates[0][c] * lower + kRates[1][c] * upper) * slant, rate = std::max(kRates[0][c], kRates[1][c]);
+        EXPECT_NEAR(-std::log(whole[c] / left), depth, 0.02 * rate * 0.7 * slant + 0.002) << upper << " m, channel " << c;
+        for (const Color& pixel : light)
+          ASSERT_NEAR(pixel[c] / left, std::exp(-depth), 0.12 * depth * std::exp(-depth) + 0.01) << upper << " m, channel " << c;
+      }
+    }
+}
+
+// What a mixture scatters is the mean over what it absorbs; what one fluid emits, the other does not.
+TEST_F(FlatPool, MixturesScatterTheMeanOfTheirFluids) {
+  auto particles = block({-2.6, -0.6, -2.6}, {2.6, 0, 2.6}, 0);
+  FluidLook look = clear();
+  look.absorption = {30, 20, 10};
+  look.scatter = {0.1f, 0.5f, 0.9f};
+  look.emission = {0, 4, 0};
+  const std::array<float, 4> black{0, 0, 0, 1};
+  const auto picture = [&](float fluid) {
+    const auto cell = [](float x) { return int(std::floor(x / kSpacing)); };
+    for (Float4& p : particles) p.w = fluid < 0 ? float((cell(p.x) + cell(p.y) + cell(p.z)) & 1) : fluid;
+    fill(particles);
+    return mean(seen(parallel(0.3), look, black));
+  };
+  bodies_ = {{}, {.absorption = Float3{10, 20, 30}, .scatter = {0.8f, 0.4f, 0.2f}}};
+  const Color first = picture(0), second = picture(1), both = picture(-1);
+  EXPECT_GT(first[1], second[1] + 3);
+  constexpr double kShare[] = {0.75, 0.5, 0.25};  // of the first: of absorptions
+  for (size_t c = 0; c < 3; ++c) {
+    const double wanted = kShare[c] * first[c] + (1 - kShare[c]) * second[c];
+    EXPECT_NEAR(both[c], wanted, 0.02 * wanted) << "channel " << c;
+  }
+}
+
+// With one fluid the index in w is not read, and a body is a look.
+TEST_F(FlatPool, OneFluidHasTheBitsOfItsLook) {
+  FluidLook look;
+  look.scattering = {0.5f, 0.5f, 0.5f};
+  auto particles = block({-2.6, -0.3, -2.6}, {2.6, 0, 2.6});
+  fill(particles);
+  const Backdrop gray{.color = {0.5f, 0.5f, 0.5f, 1}, .depth = 1};
+  const auto plain = drawn(parallel(0.4), look, gray);
+  for (Float4& p : particles) p.w = 3;
+  fill(particles);
+  EXPECT_TRUE(drawn(parallel(0.4), look, gray).color == plain.color);
+  bodies_ = {{}};
+  EXPECT_TRUE(drawn(parallel(0.4), look, gray).color == plain.color);
+  bodies_ = {{.absorption = Float3{9, 5, 1}, .scatter = {0.1f, 0.2f, 0.3f}}};
+  const auto body = drawn(parallel(0.4), look, gray);
+  bodies_.clear();
+  look.absorption = {9, 5, 1};
+  look.scatter = {0.1f, 0.2f, 0.3f};
+  look.scattering = {0, 0, 0};
+  EXPECT_TRUE(drawn(parallel(0.4), look, gray).color == body.color);
+}
+
 // Kirchhoff's law: emissivity is absorptance.
 TEST_F(FlatPool, EmitsAsMuchAsItAbsorbs) {
   const double rates[] = {9, 2.5, 0.5}, glow[] = {2, 0.5, 0.25};

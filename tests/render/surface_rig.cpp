@@ -173,6 +173,7 @@ Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Ba
   auto made = FluidRenderer::create(device(), formats);
   EXPECT_TRUE(made) << made.error().message;
   if (!made) return {};
+  if (!bodies_.empty()) { EXPECT_TRUE(made->setFluids(bodies_)); }
   Drawn first;
   Graph graph;
   for (int run = 0; run < 2; ++run) {

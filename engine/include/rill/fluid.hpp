@@ -162,7 +162,7 @@ struct FluidStep {
 
 /// The particles of a frame, as buffers of its graph. Read them with any Use. Buffers of particles have an unused entry after `capacity`.
 struct FluidState {
-  BufferRef position = {};  ///< vec4 per particle: xyz in m relative to `origin`; w unused
+  BufferRef position = {};  ///< vec4 per particle: xyz in m relative to `origin`; w: index of its fluid among resolvedFluids()
   BufferRef velocity = {};  ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
   BufferRef id = {};        ///< uint per particle, which it keeps: unique, below 0x7F000000; at the start its index in the ParticleSet
   BufferRef control = {};   ///< FluidControl (shaders/shared/fluid_records.h)

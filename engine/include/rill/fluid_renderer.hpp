@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "rill/device.hpp"
 #include "rill/environment.hpp"
@@ -91,6 +92,20 @@ RILL_API std::optional<SurfaceMethod> surfaceMethod(std::string_view name);
 /// Names of all presets.
 RILL_API std::span<const std::string_view> fluidLooks();
 
+/// What absorbs and scatters light in one of several fluids. Colors are linear RGB.
+struct FluidBody {
+  /// 1/m, 0 to 1e6. Empty: absorption, scatter, scattering and emission are those of the FluidLook. With one, it has no emission and no
+  /// sunlight shines through its crests.
+  std::optional<Float3> absorption = {};
+  Float3 scatter{0, 0, 0};  ///< as FluidLook::scatter, of a fluid with an absorption
+};
+
+/// A clear liquid of this FluidMaterial::color, which scatters as little as the preset `water`; without a color it looks as the FluidLook.
+/// Its absorption is -ln(color) / 0.1 m, at most 92 1/m.
+RILL_API FluidBody fluidBody(const std::optional<Double3>& color);
+/// The fluids of a scene, for FluidRenderer::setFluids(). Empty: none has a color.
+RILL_API std::vector<FluidBody> fluidBodies(const Scene& scene);
+
 /// Exact values of the surface, without a tone curve; alpha 0 without fluid.
 enum class SurfaceData : uint8_t {
   Normals,   ///< n / 2 + 1/2, in world space
@@ -101,7 +116,8 @@ enum class SurfaceData : uint8_t {
 class FluidRendererImpl;
 
 /// Draws the fluid of a FluidState. Only its position, countBuffer, capacity, spacing and origin are used, so that a host can fill one
-/// itself. The number of particles is the first uint of `countBuffer`, at most `capacity`; without a countBuffer it is `capacity`. Entries
+/// itself. With several fluids (setFluids()) w of a position is the index of the particle's fluid.
+/// The number of particles is the first uint of `countBuffer`, at most `capacity`; without a countBuffer it is `capacity`. Entries
 /// at 1e9 m are skipped. Both buffers are read with Use::ComputeRead; a host creates its own for STORAGE_BUFFER, `position` with at least
 /// 16 bytes per entry, `countBuffer` with at least 4.
 /// Pixels are bitwise deterministic per driver, unless more than 1,024 surface particles share a cell of four by four samples (counted).
@@ -119,6 +135,12 @@ class RILL_API FluidRenderer {
   /// between a graph's declaration and its recording. The first frames copy the picture to the device. Errors as create(), BadInput for a
   /// picture that EnvironmentPicture does not allow, OutOfMemory.
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
+
+  /// Draws several fluids, at most kMaxFluids: light on its way through is absorbed by each of them along its length. Particles are of the
+  /// fluid whose index is w of their position; one above the last is the last. The surface, its reflection and refraction are those of the
+  /// FluidLook; an opaque one hides them. Of one fluid, w is ignored. Empty: one fluid that looks as the FluidLook. Not between a graph's
+  /// declaration and its recording. Errors as create(), BadInput for a FluidBody that its description does not allow.
+  Expected<void> setFluids(std::span<const FluidBody> fluids);
 
   /// BadInput for a view that cannot be drawn: empty, larger than 8192 per side or 2^24 pixels, an invalid projection. Needs no device.
   static Expected<void> check(const FluidView& view);
