@@ -38,9 +38,10 @@ Expected<void> SurfaceStage::setFluids(Device& device, uint32_t count) {
 BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
                                      BufferRef sceneDepth, SurfaceBuffers* surface, Of of) const {
   const bool each = of == Of::EachFluid && fluids_ > 1, hidden = sceneDepth != BufferRef{};
+  const uint32_t grids = !each ? 1 : hidden ? 2 * fluids_ : fluids_;
   BufferRef own;
   if (!surface) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
-  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4 * (each ? fluids_ : 1)});
+  BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4 * grids});
   addFill(graph, names.clear, {{&thickness, 0}, {surface ? nullptr : &own, 0}});
   if (fluid.capacity == 0) return thickness;
   const CountedParticles particles = surface ? surface->particles : countParticles(graph, fluid, particleGroups_, kSurfaceGroup);

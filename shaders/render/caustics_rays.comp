@@ -65,7 +65,7 @@ vec2 bodyAt(vec2 at) {
 vec3 absorptionAt(vec2 at) {
 #ifdef SEVERAL
   const vec2 part = fract(at);
-  Interior sums = Interior(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+  Interior sums = noInterior();
   float meters = 0.0;
   for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
     float counts = 0.0;

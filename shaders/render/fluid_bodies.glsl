@@ -11,6 +11,14 @@ struct Interior {
 
 Interior lookInterior() { return Interior(look.absorption.rgb, look.scatter.rgb, look.emission.rgb, 1.0); }
 
+vec3 absorptionOf(uint fluid) { return FLUIDS == 1u ? look.absorption.rgb : look.fluid_absorption[fluid].rgb; }
+// Of one of several fluids.
+Interior interiorOf(uint fluid) {
+  const vec4 rates = look.fluid_absorption[fluid];
+  return Interior(rates.rgb, look.fluid_scatter[fluid].rgb, rates.w * look.emission.rgb, rates.w);
+}
+Interior noInterior() { return Interior(vec3(0.0), vec3(0.0), vec3(0.0), 0.0); }
+
 // Adds a length of one fluid to sums over all: depths in place of rates and means.
 void addFluid(inout Interior sums, uint fluid, float meters) {
   const vec4 rates = look.fluid_absorption[fluid];

@@ -56,6 +56,8 @@ const vec2 kRefractionFade = vec2(0.2, 0.7);
 const vec2 kReflectionFade = vec2(0.2, 0.5);
 const vec2 kHighlightFade = vec2(0.6, 0.9);   // of the sun
 const vec2 kWhitewaterFade = vec2(0.1, 0.5);  // from white to clear
+// Spacings between where two fluids begin on a ray: from a mixture to one before the other.
+const vec2 kApart = vec2(0.5, 1.5);
 // Cosines between view ray and reflected ray: from a reflection of the sky to one of the scene behind.
 const vec2 kGrazing = vec2(0.5, 0.9);
 
@@ -72,26 +74,98 @@ vec3 sceneBilinear(vec2 pixel, float z) {
              mix(sceneUnlessInFront(ivec2(base.x, next.y), own, z), sceneUnlessInFront(next, own, z), part.x), part.y);
 }
 
-// Length of the ray in the fluid, m, and the mean over it of what is there.
-float thicknessAt(vec2 pixel, out Interior interior) {
+// The four samples around a pixel, and how far it is between them.
+struct Around {
+  uvec4 samples;
+  vec2 part;
+  uint grid;  // samples of a grid
+};
+Around around(vec2 pixel) {
   const uint step = uint(look.finish.y);
   const ivec2 grid = ivec2((uvec2(view.width, view.height) + step - 1u) / step);
   const vec2 at = clamp(pixel / float(step) - 0.5, vec2(0.0), vec2(grid) - 1.0);
   const ivec2 base = ivec2(at), next = min(base + 1, grid - 1);
-  const vec2 part = at - vec2(base);
-  float sum = 0.0;
-  interior = FLUIDS == 1u ? lookInterior() : Interior(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
-  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
-    const int first = int(fluid) * grid.x * grid.y, upper = first + base.y * grid.x, lower = first + next.y * grid.x;
-    const float a = float(thickness[upper + base.x]), b = float(thickness[upper + next.x]);
-    const float c = float(thickness[lower + base.x]), d = float(thickness[lower + next.x]);
-    const float meters = mix(mix(a, b, part.x), mix(c, d, part.x), part.y) * look.finish.z;
-    if (FLUIDS == 1u) return meters;
-    addFluid(interior, fluid, meters);
-    sum += meters;
-  }
-  interior = meanOf(interior, sum);
+  return Around(uvec4(base.y * grid.x + base.x, base.y * grid.x + next.x, next.y * grid.x + base.x, next.y * grid.x + next.x),
+                at - vec2(base), uint(grid.x * grid.y));
+}
+
+// Length of the ray in one of the fluids, m.
+float thicknessOf(uint fluid, Around near) {
+  const uvec4 s = near.samples + fluid * near.grid;
+  const float a = float(thickness[s.x]), b = float(thickness[s.y]), c = float(thickness[s.z]), d = float(thickness[s.w]);
+  return mix(mix(a, b, near.part.x), mix(c, d, near.part.x), near.part.y) * look.finish.z;
+}
+float thicknessAt(vec2 pixel) {
+  const Around near = around(pixel);
+  float sum = thicknessOf(0u, near);
+  for (uint fluid = 1u; fluid < FLUIDS; ++fluid) sum += thicknessOf(fluid, near);
   return sum;
+}
+
+// Depth where one of several fluids begins, in m; noDepth() where there is none.
+float beginOf(uint fluid, Around near) {
+  const uvec4 s = near.samples + (FLUIDS + fluid) * near.grid;
+  const vec2 rest = 1.0 - near.part;
+  const vec4 shares = vec4(rest.x * rest.y, near.part.x * rest.y, rest.x * near.part.y, near.part.x * near.part.y);
+  float sum = 0.0, weights = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const uint bits = thickness[s[k]];
+    if (bits == 0u) continue;
+    sum += shares[k] * uintBitsToFloat(~bits);
+    weights += shares[k];
+  }
+  return weights > 1e-3 ? sum / weights : noDepth();
+}
+
+// What a pixel's ray loses in all of the fluid, as an exponent.
+vec3 lossAt(vec2 pixel) {
+  const Around near = around(pixel);
+  vec3 sum = absorptionOf(0u) * thicknessOf(0u, near);
+  for (uint fluid = 1u; fluid < FLUIDS; ++fluid) sum += absorptionOf(fluid) * thicknessOf(fluid, near);
+  return sum;
+}
+
+// Of a ray in the fluid: what it lets through, what it adds to that, and the mean of what it meets.
+struct Passage {
+  vec3 through, added;
+  Interior interior;
+};
+vec3 addedBy(Interior interior, vec3 through, vec3 scattered) {
+  return (interior.scatter * scattered + interior.emission) * (1.0 - through);
+}
+
+// Over `meters` of the ray of a pixel. Of several fluids that of the nearest comes first, where it begins before the others; those behind
+// it are taken to be mixed.
+Passage passage(vec2 pixel, float meters, vec3 scattered) {
+  if (FLUIDS == 1u) {
+    const vec3 through = exp(-look.absorption.rgb * meters);
+    return Passage(through, addedBy(lookInterior(), through, scattered), lookInterior());
+  }
+  const Around near = around(pixel);
+  float lengths[FLUIDS];
+  float begins = noDepth(), next = noDepth(), sum = 0.0;
+  uint front = 0u;
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
+    const float begin = beginOf(fluid, near);
+    lengths[fluid] = thicknessOf(fluid, near);
+    sum += lengths[fluid];
+    next = min(next, max(begin, begins));
+    if (begin < begins) front = fluid;
+    begins = min(begins, begin);
+  }
+  Interior behind = noInterior();
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) addFluid(behind, fluid, fluid == front ? 0.0 : lengths[fluid]);
+  const float before_length = lengths[front], shorter = meters / max(sum, 1e-20);
+  Interior mixed = behind;
+  addFluid(mixed, front, before_length);
+  mixed = meanOf(mixed, sum);
+  const Interior before = interiorOf(front);
+  const vec3 before_through = exp(-before.absorption * (shorter * before_length)), behind_through = exp(-behind.absorption * shorter);
+  const vec3 through = before_through * behind_through;
+  const vec3 layers = addedBy(before, before_through, scattered) +
+                      before_through * addedBy(meanOf(behind, sum - before_length), behind_through, scattered);
+  const float apart = smoothstep(kApart.x, kApart.y, (next - begins) / view.spacing);
+  return Passage(through, mix(addedBy(mixed, through, scattered), layers, apart), mixed);
 }
 
 struct MeanNormal {
@@ -170,8 +244,7 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   // A drop does not refract, because its refraction would apply to all fluid behind it; nor does the near plane with the eye in the fluid.
   const float bends = z <= nearestDrawn() ? 0.0 : smoothstep(kRefractionFade.x, kRefractionFade.y, mean_normal.coherence);
   const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), bends));
-  Interior interior;
-  float inside = thicknessAt(middle, interior);
+  float inside = thicknessAt(middle);
   // Whitewater is full of air and scatters white light.
   const float white = look.finish.w * (1.0 - smoothstep(kWhitewaterFade.x, kWhitewaterFade.y, mean_normal.coherence)) *
                       (1.0 - exp(-inside / view.spacing));
@@ -186,10 +259,7 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
       hit_pixel = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
       hit_depth = scene_depth[uint(hit_pixel.y) * view.width + uint(hit_pixel.x)];
       ray_length = max(ray_length + (min(hit_depth, farthest) - at.z) / max(ray_length < inside ? bent.z : sight.z, 0.1), 0.0);
-      Interior there;
-      const float next = thicknessAt(hit_pixel, there);
-      if (FLUIDS > 1u && next > inside) interior = there;
-      inside = max(inside, next);
+      inside = max(inside, thicknessAt(hit_pixel));
     }
   }
   // The scene in front of the fluid is not refracted.
@@ -197,10 +267,10 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
     hit_pixel = middle;
     ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
   }
-  const vec3 through = exp(-interior.absorption * min(inside, ray_length));
-  vec3 body = sceneBilinear(hit_pixel, z) * through + (interior.scatter * scattered + interior.emission) * (1.0 - through);
+  const Passage fluids = passage(middle, min(inside, ray_length), scattered);
+  vec3 body = sceneBilinear(hit_pixel, z) * fluids.through + fluids.added;
 #ifdef CRESTS
-  body += bends * scatteredSun(point, bent, min(inside, ray_length), interior);
+  body += bends * scatteredSun(point, bent, min(inside, ray_length), fluids.interior);
 #endif
   // Multiple scattering leaves no side dark.
   const float facing_sun = 0.5 + 0.5 * dot(worldDirection(mean_normal.direction), look.light.xyz);
@@ -212,9 +282,7 @@ vec3 reflectedLight(ivec2 pixel, vec3 sight, vec3 mirrored, float spread) {
   const vec3 sky = skyColor(mirrored, look.light.xyz, spread);
   const float past = smoothstep(kGrazing.x, kGrazing.y, dot(mirrored, sight)) * (1.0 - skyShare(mirrored));
   if (past <= 0.0) return sky;
-  Interior interior;
-  const float inside = thicknessAt(vec2(pixel) + 0.5, interior);
-  return mix(sky, sceneAt(pixel) * exp(-interior.absorption * inside), past);
+  return mix(sky, sceneAt(pixel) * exp(-lossAt(vec2(pixel) + 0.5)), past);
 }
 #endif
 

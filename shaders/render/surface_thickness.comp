@@ -1,6 +1,6 @@
 #version 460
 // Thickness of the fluid along each sample's ray: each particle spreads its volume over a disc. With NO_SCENE nothing occludes it.
-// Of several fluids the thickness of each, one grid of samples after the other.
+// Of several fluids the thickness of each, one grid of samples after the other; in front of a scene also the depth where each begins.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -35,7 +35,12 @@ void add(ivec2 at, float z, float meters) {
   const ivec2 grid = ivec2(sampleGrid());
   if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, grid)) || behindScene(at, z)) return;
   const uint amount = uint(meters / view.unit + 0.5);
-  if (amount > 0u) atomicAdd(thickness[first_sample + uint(at.y * grid.x + at.x)], amount);
+  if (amount == 0u) return;
+  const uint index = first_sample + uint(at.y * grid.x + at.x);
+  atomicAdd(thickness[index], amount);
+#ifndef NO_SCENE
+  if (FLUIDS > 1u) atomicMax(thickness[FLUIDS * uint(grid.x * grid.y) + index], ~floatBitsToUint(z));  // 0: none
+#endif
 }
 
 // The integral of (1 - r^2 / R^2)^2 over the disc is pi R^2 / 3.

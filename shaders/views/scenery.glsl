@@ -45,9 +45,8 @@ vec3 throughFluid(vec3 p) {
       counts += down[k] * dot(across, row);
     }
     const float own = counts * look.finish.z;
-    const vec3 rates = FLUIDS == 1u ? look.absorption.rgb : look.fluid_absorption[fluid].rgb;
     meters += own;
-    depth += rates * own;
+    depth += absorptionOf(fluid) * own;
   }
   const float spread = 1.0 - exp(-meters / (2.0 * view.spacing));  // what the surface bends away
   return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-depth) * (1.0 - 0.45 * spread);

@@ -174,6 +174,21 @@ TEST_F(TwoFluids, InterfaceIsSeenThroughTheUpperOne) {
   EXPECT_GT(deep[0] / deep[2], 4 * shallow[0] / shallow[2]);
 }
 
+// Milk under water is white in the color of the water, as far as one looks through that.
+TEST_F(TwoFluids, FluidBelowIsSeenInTheLightThatTheUpperOneLetsThrough) {
+  scene_.look.preset = "milk";
+  scene_.fluids = {{.name = "milk"}, {.name = "water", .color = Double3{0.4, 0.8, 1}}};
+  scene_.camera = Camera{.eye = {0.4, 1.6, 0.5}, .target = {0.4, 0.2, 0.15}, .fov_y_deg = 32};
+  box({0, 0, 0}, {0.4, 0.1, 0.3}, 0);
+  box({0.4, 0, 0}, {0.8, 0.26, 0.3}, 0);
+  box({0, 0.1, 0}, {0.4, 0.3, 0.3}, 1);
+  box({0.4, 0.26, 0}, {0.8, 0.3, 0.3}, 1);
+  const auto pixels = picture();
+  const Color deep = at(pixels, {0.2, 0.3, 0.15}), shallow = at(pixels, {0.6, 0.3, 0.15});
+  EXPECT_LT(deep[0] / deep[2], 0.6 * shallow[0] / shallow[2]);
+  EXPECT_GT(deep[2], 0.5 * shallow[2]) << "the milk is seen";
+}
+
 // Sunlight colors the floor by the fluid that it has come through, as a plain shadow and as caustics.
 TEST_F(TwoFluids, ShadowsHaveTheirColors) {
   scene_.domain = Domain{{0, 0, 0}, {1.6, 1, 1}};

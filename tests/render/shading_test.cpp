@@ -174,6 +174,28 @@ TEST_F(FlatPool, MixturesScatterTheMeanOfTheirFluids) {
   }
 }
 
+// A thick fluid below a clear one is seen in the light that this lets through, one above it in its own color.
+TEST_F(FlatPool, LightComesThroughTheFluidInFront) {
+  auto particles = block({-2.6, -0.8, -2.6}, {2.6, 0, 2.6}, 0);
+  FluidLook look = clear();
+  look.absorption = {60, 60, 60};
+  look.scatter = {0.8f, 0.8f, 0.8f};
+  bodies_ = {{}, {.absorption = Float3{4, 1, 0}}};
+  const auto picture = [&](float above, float below) {
+    for (Float4& p : particles) p.w = p.y > -0.4f ? above : below;
+    fill(particles);
+    return mean(seen(parallel(0), look, {0, 0, 0, 1}));
+  };
+  const Color milk = picture(0, 0), before = picture(0, 1), behind = picture(1, 0);
+  constexpr double kRates[] = {4, 1, 0};
+  const Color dark = picture(1, 1);  // nothing but its reflection
+  for (size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(before[c], milk[c], 0.01 * milk[c]) << "channel " << c;
+    const double wanted = dark[c] + (milk[c] - dark[c]) * std::exp(-kRates[c] * 0.4);
+    EXPECT_NEAR(behind[c], wanted, 0.04 * wanted) << "channel " << c;
+  }
+}
+
 // With one fluid the index in w is not read, and a body is a look.
 TEST_F(FlatPool, OneFluidHasTheBitsOfItsLook) {
   FluidLook look;
