@@ -11,9 +11,9 @@ namespace {
 double fluidMass(const Scene& scene, const offline::Stats& stats) {
   const double volume = std::pow(scene.fluid.spacing, 3);
   const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
-  if (fluids.size() == 1 || stats.fluidParticles.size() != fluids.size()) return double(stats.particles) * fluids[0].density * volume;
+  if (fluids.size() == 1 || stats.fluids.size() != fluids.size()) return double(stats.particles) * fluids[0].density * volume;
   double mass = 0;
-  for (size_t i = 0; i < fluids.size(); ++i) mass += double(stats.fluidParticles[i]) * fluids[i].density * volume;
+  for (size_t i = 0; i < fluids.size(); ++i) mass += double(stats.fluids[i].particles) * fluids[i].density * volume;
   return mass;
 }
 

@@ -322,13 +322,14 @@ Expected<uint64_t> Runner::add(const Fill& fill) {
         now->position, [&](const Float3& other) { return std::hypot(other.x - x.x, other.y - x.y, other.z - x.z) < apart; });
     if (!free) continue;
     positions.push_back(x);
-    if (!more->fluids.empty()) fluids.push_back(more->fluids[i]);
+    if (scene_.fluids.size() > 1) fluids.push_back(more->fluids[i]);
   }
   if (4 * positions.size() < more->positions.size()) return Error{ErrorKind::BadInput, "There is no room for more fluid there"};
   const std::vector<Float3> velocities(positions.size(), more->velocities.front());
   start.positions.insert(start.positions.end(), positions.begin(), positions.end());
   start.velocities.insert(start.velocities.end(), velocities.begin(), velocities.end());
-  start.fluids.insert(start.fluids.end(), fluids.begin(), fluids.end());
+  if (!start.fluids.empty()) start.fluids.resize(start.positions.size());
+  std::ranges::copy(fluids, start.fluids.end() - std::ssize(fluids));
   if (hasState(*now)) append(*now, positions, velocities, fluids);
   if (auto done = continueFrom(scene_, std::make_shared<const ParticleSet>(std::move(start)), std::move(*now)); !done) return done.error();
   return positions.size();

@@ -135,10 +135,7 @@ std::vector<FluidFigures> FluidImpl::figuresOfFluids(std::span<const std::byte> 
     if (!setup.removes) continue;
     FluidLedger& own = fluids[k].ledger;
     own.filled = ledger.filledOf[k], own.inactive = ledger.inactiveOf[k];
-    own.drained = ledger.drainedOf[k], own.left = ledger.leftOf[k];
-    own.emitted = 0;
-    for (size_t e = 0; e < emitted.size(); ++e)
-      if (setup.emitters[e].fluid == k) own.emitted += emitted[e].particles;
+    own.emitted = ledger.emittedOf[k], own.drained = ledger.drainedOf[k], own.left = ledger.leftOf[k];
   }
   return fluids;
 }

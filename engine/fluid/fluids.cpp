@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/words.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/settings.hpp"
 
@@ -11,6 +12,8 @@ namespace rill {
 static_assert(kFluidLedgers == kMaxFluids);
 
 namespace {
+
+constexpr double kMaxDensityRatio = 1000;  // multipliers of the lightest fluid keep the precision of halves
 
 template <class Value>
 double largestOf(const Scene& scene, Value&& value) {
@@ -53,7 +56,12 @@ void addFluids(const Scene& scene, FluidSetup& setup) {
   const double densest = densestFluid(scene), viscosity = largestViscosity(scene);
   setup.fluids = static_cast<uint32_t>(fluids.size());
   for (size_t k = 0; k < fluids.size(); ++k) {
-    setup.params.*kInverseMasses[k] = f(densest / fluids[k].density);
+    const double ratio = densest / fluids[k].density;
+    setup.params.*kInverseMasses[k] = f(std::min(ratio, kMaxDensityRatio));
+    if (ratio > kMaxDensityRatio)
+      setup.warnings.push_back("fluids." + fluids[k].name + ".density: found " + roundedNumber(fluids[k].density) + " kg/m^3, " +
+                               roundedNumber(ratio) + " times less than the densest fluid; expected at most " +
+                               roundedNumber(kMaxDensityRatio) + " times; it is simulated with this ratio");
     setup.params.*kViscosities[k] = viscosity > 0 ? f(fluids[k].viscosity / viscosity) : 0;
   }
 }

@@ -11,11 +11,11 @@ double largestViscosity(const Scene& scene);            ///< Pa s
 double largestKinematicViscosity(const Scene& scene);   ///< m^2/s
 double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s
 
-/// The largest product of a fluid's inverse mass and viscosity, each over that of the densest and of the most viscous fluid. At least 1
-/// with one viscous fluid; it multiplies FluidParams::viscosityRate.
+/// The largest product of a fluid's inverse mass and viscosity, each over that of the densest and of the most viscous fluid: at least 1 if
+/// any is viscous, else 0. It multiplies FluidParams::viscosityRate.
 double fastestViscosity(const Scene& scene);
 
-/// Sets what shaders need of several fluids. With one there is nothing.
+/// Sets FluidSetup::fluids and what shaders need of several fluids, and warns of density ratios beyond 1000. With one there is nothing.
 void addFluids(const Scene& scene, FluidSetup& setup);
 
 }  // namespace rill

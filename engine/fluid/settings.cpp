@@ -89,7 +89,7 @@ void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSet
   if (setup.artificialViscosity > 0) return;
   setup.whyNoNoiseDamping = strongestGravity(scene) == 0                         ? "no gravity"
                             : scene.solver.artificial_viscosity.value_or(1) == 0 ? "artificial viscosity is 0"
-                                                                                 : "fluid.viscosity is larger";
+                                                                                 : "the viscosity is larger";
 }
 
 // Nothing of it exists where it has no effect.

@@ -68,6 +68,11 @@ void addSleep(const Scene& scene, double room, FluidSetup& setup) {
     setup.whyNoSleep = "no gravity";
     return;
   }
+  if (setup.fluids > 1) {
+    setup.whyNoSleep = "several fluids: one that rises slowly would be taken for at rest";
+    setup.warnings.push_back("solver.sleep: has no effect in a scene with several fluids");
+    return;
+  }
   setup.params.sleeps = 1;
   setup.params.sleepLength = f(std::max(room, scene.fluid.spacing));
   setup.params.kinematicViscosity = f(largestKinematicViscosity(scene));

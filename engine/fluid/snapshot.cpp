@@ -389,6 +389,10 @@ void addEmitters(FluidSnapshot& s, const Scene& before, const Scene& after, cons
   if (after.emitters.size() <= before.emitters.size()) return;
   if (s.flows.empty()) {  // no particle has come or gone so far
     FlowRecord ledger = firstLedger(static_cast<uint32_t>(s.id.size()), record<FluidSums>(s.sums).nonFinite);
+    for (size_t i = 0; i < s.fluid.size(); ++i) {
+      ++ledger.filledOf[s.fluid[i]];
+      if (std::abs(s.position[i].x) >= kInactiveLimit) ++ledger.inactiveOf[s.fluid[i]];
+    }
     if (!s.id.empty()) ledger.nextId = std::max(ledger.nextId, *std::ranges::max_element(s.id) + 1);
     s.flows = wordsOf(ledger);
   }

@@ -25,11 +25,17 @@ std::vector<NearSolids> firstNearSolids(const FluidSnapshot& s) {
   return all;
 }
 
+/// w of a prediction without a push by solids (shaders/fluid/fluids.glsl).
+float taggedFluid(uint8_t fluid) {
+  constexpr float kMinTagged = 1e-30F;
+  return std::bit_cast<float>((std::bit_cast<uint32_t>(kMinTagged) & ~7u) | fluid);
+}
+
 /// The vectors as four floats each, w from `ws` or, where that is empty, `w`; then `rest` up to `entries`.
-std::function<void(std::byte*)> quads(std::vector<Float3> vectors, std::vector<uint8_t> ws, float w, Float4 rest, size_t entries) {
+std::function<void(std::byte*)> quads(std::vector<Float3> vectors, std::vector<float> ws, float w, Float4 rest, size_t entries) {
   return [vectors = std::move(vectors), ws = std::move(ws), w, rest, entries](std::byte* to) {
     for (size_t i = 0; i < entries; ++i) {
-      const float own = i < ws.size() ? static_cast<float>(ws[i]) : w;
+      const float own = i < ws.size() ? ws[i] : w;
       const Float4 quad = i < vectors.size() ? Float4{vectors[i].x, vectors[i].y, vectors[i].z, own} : rest;
       std::memcpy(to + i * sizeof quad, &quad, sizeof quad);
     }
@@ -72,13 +78,19 @@ void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3
   // The entries without a particle, and the dummy neighbor behind them, are inactive.
   const Float4 inactive{kInactivePosition, kInactivePosition, kInactivePosition, 0.0f};
   const size_t entries = size_t{capacity} + 1;
-  staging_->add(slotOf(Position), buffer(Position).size(),
-                quads(std::move(positions), std::move(fluids), rowOf(Position).w, inactive, entries));
+  std::vector<float> stored, tagged;
+  if (setup.fluids > 1) {
+    fluids.resize(positions.size());
+    stored.assign(fluids.begin(), fluids.end());
+    for (const uint8_t fluid : fluids) tagged.push_back(taggedFluid(fluid));
+  }
+  // Predictions start as the positions; they and `work` end with the dummy neighbor.
+  const float w = rowOf(Position).w;
+  staging_->add(slotOf(Prediction), buffer(Prediction).size(), quads(positions, std::move(tagged), w, inactive, entries));
+  staging_->add(slotOf(Position), buffer(Position).size(), quads(std::move(positions), std::move(stored), w, inactive, entries));
+  staging_->addSame(slotOf(Work), slotOf(Position));
   staging_->add(slotOf(Velocity), buffer(Velocity).size(),
                 quads(std::move(velocities), {}, rowOf(Velocity).w, Float4{0, 0, 0, 1}, entries));
-  // Predictions start as the positions, before the first pass makes them; they and `work` end with the dummy neighbor.
-  staging_->addSame(slotOf(Prediction), slotOf(Position));
-  staging_->addSame(slotOf(Work), slotOf(Position));
 }
 
 void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
@@ -148,6 +160,7 @@ void FluidImpl::resumeFlows(const FluidSnapshot& s) {
     next(saved);
     saved.from = emitter.from, saved.until = emitter.until;
     saved.firstPoint = emitter.firstPoint, saved.points = emitter.points, saved.isDisc = emitter.isDisc;
+    saved.fluid = emitter.fluid;
     saved.firstKey = emitter.firstKey, saved.keyCount = emitter.keyCount, saved.motionSpeed = emitter.motionSpeed;
     emitter = saved;
   }

@@ -193,8 +193,6 @@ class Simulation::Impl {
     stats.listBuilds = advanced_.listBuilds;
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
-    stats.fluidParticles.resize(resolvedFluids(scene_).size());
-    for (uint8_t fluid : readout_.fluids) ++stats.fluidParticles[std::min<size_t>(fluid, stats.fluidParticles.size() - 1)];
     stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies());
     stats.probes = probes_.read(*fluid_, reader, measured_->time_s, advanced_s_ - advanced_.timeDropped_s);
     if (white_) stats.whitewater = whiteStats_;

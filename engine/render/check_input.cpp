@@ -109,6 +109,8 @@ Expected<void> checkBodies(std::span<const FluidBody> fluids) {
     if (!body.absorption) continue;
     for (const float rate : {body.absorption->x, body.absorption->y, body.absorption->z})
       if (!(rate >= 0 && rate <= 1e6f)) return outOfRange("FluidBody::absorption", double{rate}, "0 to 1e6 (1/m)");
+    for (const float share : {body.scatter.x, body.scatter.y, body.scatter.z})
+      if (!(share >= 0 && share <= 1)) return outOfRange("FluidBody::scatter", double{share}, "0 to 1");
   }
   return {};
 }

@@ -232,8 +232,8 @@ void main() {
     x = insideWalls(x + apart);
     from = insideWalls(from + apart);
   }
-  position[i] = vec4(from, storedFluid(fluidOf(predicted.w)));
-  prediction[i] = vec4(x, predicted.w < 0.0 ? withFluid(0.0, fluidOf(predicted.w)) : predicted.w);
+  position[i] = vec4(from, storedFluid(fluidOfPrediction(predicted.w)));
+  prediction[i] = vec4(x, predicted.w < 0.0 ? withFluid(0.0, fluidOfPrediction(predicted.w)) : predicted.w);
   velocity[i] = vec4(moving.xyz, 1.0);
   if (WARM) warm[i] = moving.w;
   id[i] = own;

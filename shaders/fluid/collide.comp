@@ -81,7 +81,7 @@ void main() {
   uvec3 near = nearSolids[n].yzw;
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
-  uint fluid = fluidOf(position[i]);
+  uint fluid = fluidOfPosition(position[i]);
   ownInverseMass = inverseMassOf(fluid);
   float pushed;
   countsPushes = control.phase == kPhaseAdvancing;

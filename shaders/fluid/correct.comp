@@ -47,7 +47,7 @@ void visit(uvec4 particle) {
   float distance = sqrt(dot(r, r));
   vec3 gradient = gradientShape(distance) * r;
   vec2 both = own + unpackHalf2x16(particle.w);
-  if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOf(particle)));
+  if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOfWork(particle)));
   correction += both.x * gradient;
   if (WARM) warmDisplacement += both.y * gradient;
 }
@@ -133,7 +133,7 @@ float endSubstep(uint i, uint head) {
   }
   position[i] = vec4(to, storedFluid(fluid));
   if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = finite ? unit * vec2(kept * own.x, own.y) : vec2(0.0);
-  if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), withoutFluid(prediction[i].w));
+  if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), numberOfPrediction(prediction[i].w));
   velocity[i] = vec4(v, 1.0);
   if (WARM) warmAcceleration[i] = vec4(acceleration, found);
   prediction[i] = vec4(next, withFluid(0.0, fluid));
@@ -155,7 +155,7 @@ void main() {
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
   own = unpackHalf2x16(particle.w);
-  fluid = fluidOf(particle);
+  fluid = fluidOfWork(particle);
   inverseMass = inverseMassOf(fluid);
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);

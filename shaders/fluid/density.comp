@@ -43,7 +43,7 @@ void visit(vec4 particle) {
   kernelShapes(sqrt(squared), value, gradient);
   rho += value;
   gradientSum += gradient * r;
-  gradientSquares += inverseMassOf(fluidOf(particle.w)) * gradient * gradient * squared;
+  gradientSquares += inverseMassOf(fluidOfPrediction(particle.w)) * gradient * gradient * squared;
 }
 void reflectSums(vec3 signs) { gradientSum *= signs; }
 #define IMAGES
@@ -148,7 +148,7 @@ void main() {
   if (!inRange) i = params.capacity;
   vec4 particle = particleAt(i);
   here = particle.xyz;
-  fluid = fluidOf(particle.w);
+  fluid = fluidOfPrediction(particle.w);
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
   visitNeighbors(i, moves ? head : 0u, local, moves);

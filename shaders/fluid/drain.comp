@@ -41,10 +41,10 @@ void main() {
   if (drain < params.drainCount) {
     atomicAdd(drains[drain].drained, 1u);
     atomicAdd(flow.drained, 1u);
-    if (FLUIDS) atomicAdd(flow.drainedOf[fluidOf(position[i])], 1u);
+    if (FLUIDS) atomicAdd(flow.drainedOf[fluidOfPosition(position[i])], 1u);
   } else if (hasLeft(x)) {
     atomicAdd(flow.left, 1u);
-    if (FLUIDS) atomicAdd(flow.leftOf[fluidOf(position[i])], 1u);
+    if (FLUIDS) atomicAdd(flow.leftOf[fluidOfPosition(position[i])], 1u);
   } else {
     return;
   }

@@ -66,9 +66,11 @@ void main() {
     x = insideWalls(x);
     atomicAdd(emitters[e].emitted, 1u);
     atomicAdd(flow.emitted, 1u);
+    if (FLUIDS) atomicAdd(flow.emittedOf[emitters[e].fluid], 1u);
   }
   position[i] = vec4(x, storedFluid(emitters[e].fluid));
   velocity[i] = vec4(v, 1.0);
+  // Its fluid follows at the sort.
   prediction[i] = vec4(blocked ? x : insideWalls(predicted(x, v, vec3(0.0))), 0.0);
   if (WARM) warm[i] = 0.0;
   if (WARM) warmAcceleration[i] = vec4(0.0);

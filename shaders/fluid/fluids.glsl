@@ -1,34 +1,35 @@
 // Several fluids of one spacing, whose particles have different masses. A particle keeps the index of its fluid in w of its position. For
 // passes over neighbors the last bits of its prediction's w, and of its place in `work`, repeat it.
-// FLUIDS: the scene has several; else all of this is as if it were not there. Needs `params`.
+// FLUIDS: the scene has several; else it is compiled for one. Needs `params`.
 #ifndef RILL_FLUIDS_GLSL
 #define RILL_FLUIDS_GLSL
 const uint kFluidBits = 7u;
-const float kLeastTagged = 1.0e-30;  // the bits of 0 would make a denormal number
+const float kMinTagged = 1.0e-30;  // the bits of 0 would make a denormal number
 
-// Of a position.
-uint fluidOf(vec4 position) { return FLUIDS ? uint(position.w) : 0u; }
+uint fluidOfPosition(vec4 position) { return FLUIDS ? uint(position.w) : 0u; }
 
 // w of a position.
 float storedFluid(uint fluid) { return FLUIDS ? float(fluid) : 0.0; }
 
-// w of a prediction: a number with the index of a fluid.
+// w of a prediction: a number with the index of a fluid in its last bits. Also start_state.cpp.
 float withFluid(float number, uint fluid) {
   if (!FLUIDS) return number;
-  float normal = abs(number) < kLeastTagged ? kLeastTagged : number;
+  float normal = abs(number) < kMinTagged ? kMinTagged : number;
   return uintBitsToFloat((floatBitsToUint(normal) & ~kFluidBits) | fluid);
 }
-float withoutFluid(float number) { return FLUIDS && abs(number) < 2.0 * kLeastTagged ? 0.0 : number; }
+uint fluidOfPrediction(float w) { return FLUIDS ? floatBitsToUint(w) & kFluidBits : 0u; }
+float numberOfPrediction(float w) { return FLUIDS && abs(w) < 2.0 * kMinTagged ? 0.0 : w; }
 
-// The first words of `work`: a place with a bit of the index in the last bit of each coordinate. As words, since 0 may become denormal.
+// The first words of `work`: a place with a bit of the index in the last bit of each coordinate. A bit that is wrong is changed
+// by a step up or down, whichever the bit before it says: always the same way would let particles drift.
 uvec3 placeWithFluid(vec3 place, uint fluid) {
   uvec3 bits = floatBitsToUint(place);
-  return FLUIDS ? (bits & ~1u) | (uvec3(fluid, fluid >> 1, fluid >> 2) & 1u) : bits;
+  if (!FLUIDS) return bits;
+  uvec3 wrong = (bits ^ uvec3(fluid, fluid >> 1, fluid >> 2)) & 1u, up = bits >> 1 & 1u;
+  up |= uvec3(equal(bits & 0x7fffffffu, uvec3(0u)));
+  return bits + wrong * (2u * up - 1u);
 }
-
-// Of the w of a prediction, or of `work`.
-uint fluidOf(float number) { return FLUIDS ? floatBitsToUint(number) & kFluidBits : 0u; }
-uint fluidOf(uvec4 particle) { return FLUIDS ? (particle.x & 1u) | (particle.y & 1u) << 1 | (particle.z & 1u) << 2 : 0u; }
+uint fluidOfWork(uvec4 particle) { return FLUIDS ? (particle.x & 1u) | (particle.y & 1u) << 1 | (particle.z & 1u) << 2 : 0u; }
 
 // Of a particle of this fluid, over that of one of the densest.
 float inverseMassOf(uint fluid) {

@@ -13,7 +13,7 @@ bool gather(out uint i) {
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
-  fluid = fluidOf(particle);
+  fluid = fluidOfWork(particle);
   own = COMPANION(i);
   head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);

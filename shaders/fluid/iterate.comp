@@ -52,5 +52,5 @@ void main() {
     moved += scaledExcess(solidScaleAt(i, head), moved) + excess + unit * own * displacedAt(i, head).xyz;
     if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = vec2(unit * own, 0.0);
   }
-  prediction[i] = vec4(insideWalls(here + inverseMassOf(fluidOf(particle)) * moved), prediction[i].w);
+  prediction[i] = vec4(insideWalls(here + inverseMassOf(fluidOfWork(particle)) * moved), prediction[i].w);
 }

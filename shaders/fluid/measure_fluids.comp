@@ -13,7 +13,7 @@ void main() {
   uint i = flatInvocation();
   if (i >= control.count) return;
   vec4 particle = positionAt(i);
-  uint fluid = fluidOf(particle);
+  uint fluid = fluidOfPosition(particle);
   if (!isActive(particle.xyz)) {
     atomicAdd(fluidFigures[fluid].inactive, 1u);
     return;

@@ -33,7 +33,7 @@ void main() {
     float error = max(v.w - 1.0, 0.0), square = dot(v.xyz, v.xyz);
     compression += error;
     compressionMax = max(compressionMax, error);
-    float mass = 1.0 / inverseMassOf(fluidOf(particle));
+    float mass = 1.0 / inverseMassOf(fluidOfPosition(particle));
     squares += mass * square;
     squaresMax = max(squaresMax, square);
     velocities += mass * v.xyz;

@@ -63,5 +63,6 @@ void main() {
   x = insideWalls(x);
   position[i].xyz = x;
   velocity[i].xyz = v;
-  prediction[i] = vec4(insideWalls(predicted(x, v, keptWarmAcceleration(warmAccelerationAt(i)))), withFluid(0.0, fluidOf(position[i])));
+  vec3 next = insideWalls(predicted(x, v, keptWarmAcceleration(warmAccelerationAt(i))));
+  prediction[i] = vec4(next, withFluid(0.0, fluidOfPosition(position[i])));
 }

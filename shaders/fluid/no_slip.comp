@@ -37,7 +37,7 @@ void main() {
   if (n >= sums.nearSolids) return;
   uvec4 near = nearSolidsAt(n);
   uvec4 particle = workAt(near.x);
-  uint fluid = fluidOf(particle);
+  uint fluid = fluidOfWork(particle);
   vec3 x = uintBitsToFloat(particle.xyz);
   if (!isActive(x)) return;
   vec3 v = velocity[near.x].xyz;

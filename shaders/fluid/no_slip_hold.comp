@@ -24,6 +24,6 @@ void main() {
   uvec4 particle = workAt(near.x);
   vec3 x = uintBitsToFloat(particle.xyz);
   Adhesion a = Adhesion(0.0, vec3(0.0));
-  if (isActive(x)) a = adhesionAt(near.yzw, x, fluidOf(particle), false);
+  if (isActive(x)) a = adhesionAt(near.yzw, x, fluidOfWork(particle), false);
   hold[near.x] = vec4(a.pull, a.all);
 }

@@ -40,7 +40,7 @@ void main() {
   if (n >= sums.nearSolids) return;
   uvec4 near = nearSolidsAt(n);
   uvec4 particle = workAt(near.x);
-  uint fluid = fluidOf(particle);
+  uint fluid = fluidOfWork(particle);
   vec3 x = uintBitsToFloat(particle.xyz), v = velocity[near.x].xyz;
   if (!isActive(x)) return;
   Adhesion all = adhesionAt(near.yzw, x, fluid, true);

@@ -35,7 +35,7 @@ void visit(uvec4 particle, vec4 tangential) {
   float distance = sqrt(dot(r, r));
   vec3 gradient = scaledExcess(unpackSolidScale(tangential), gradientShape(distance) * r);
   vec2 both = own + unpackHalf2x16(particle.w);
-  if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOf(particle)));
+  if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOfWork(particle)));
   excess += both.x * gradient;
   warmExcess += both.y * gradient;
 }
@@ -54,7 +54,7 @@ void main() {
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);
   own = unpackHalf2x16(particle.w);
-  inverseMass = inverseMassOf(fluidOf(particle));
+  inverseMass = inverseMassOf(fluidOfWork(particle));
   visitNeighbors(i, headOf(i, inRange), inRange ? i - push.first : 0u, inRange);
   if (!inRange) return;
   float toMeters = unit * params.gradientScale;

@@ -29,5 +29,5 @@ void main() {
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;
   next = NEAR_SOLIDS ? outside(next, near, ahead(), pushed) : insideWalls(next);
-  prediction[i] = vec4(isFinite(next) ? next : x, withFluid(pushed, fluidOf(present)));
+  prediction[i] = vec4(isFinite(next) ? next : x, withFluid(pushed, fluidOfPosition(present)));
 }

@@ -1,5 +1,5 @@
 #version 460
-// Moves the particles into the order of their cells. The unused w of positions and velocities carry
+// Moves the particles into the order of their cells. w of positions and velocities carry
 // the id (shared/number.glsl) and the warm-start multiplier. build.comp copies them back. Where regions sleep, w of a
 // prediction below 0 is a particle's zone: it stays where it is.
 #extension GL_GOOGLE_include_directive : require
@@ -43,6 +43,6 @@ void main() {
     next = vec4(x, -float(zone));
   }
   sortedPosition[place] = vec4(x, numberToFloat(idAt(from)));
-  sortedPrediction[place] = vec4(next.xyz, withFluid(next.w, fluidOf(present)));
+  sortedPrediction[place] = vec4(next.xyz, withFluid(next.w, fluidOfPosition(present)));
   sortedVelocity[place] = vec4(v, WARM ? presentWarm(from) : 0.0);
 }

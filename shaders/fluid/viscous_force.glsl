@@ -1,6 +1,7 @@
-// dt L of viscosity, negative: c_ij sum_j (1-q)^3 q q^T (v_j - v_i), q from j to i over the support. The force of a pair is along its line and
-// proportional to the speed along it: it keeps angular momentum. The pairs are those of the density pass: gathers from `work`.
-// Include it after `push` is declared, with COMPANION(j) the velocity of j. BOUNDS: also bounds the eigenvalues of 1 + dt L.
+// dt L of viscosity, negative: sum_j c_ij (1-q)^3 q q^T (v_j - v_i), q from j to i over the support. The force of a pair is
+// along its line and proportional to the speed along it: it keeps angular momentum. The pairs are those of the density
+// pass: gathers from `work`. Include it after `push` is declared, with COMPANION(j) the velocity of j. BOUNDS: also
+// bounds the eigenvalues of 1 + dt L.
 #ifndef RILL_FLUID_VISCOUS_FORCE_GLSL
 #define RILL_FLUID_VISCOUS_FORCE_GLSL
 #include "fluid/cluster.glsl"
@@ -17,7 +18,7 @@ vec3 diagonal = vec3(0.0), mixed = vec3(0.0);  // of sum_j (1-q)^3 q q^T; mixed:
 
 void visit(uvec4 particle, vec4 companion) {
   vec3 q = (here - uintBitsToFloat(particle.xyz)) * inverseSupport;
-  float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = pairViscosity(fluid, fluidOf(particle)) * t * t * t;
+  float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = pairViscosity(fluid, fluidOfWork(particle)) * t * t * t;
   force += weight * dot(q, companion.xyz - own.xyz) * q;
 #ifdef BOUNDS
   diagonal += weight * q * q;

@@ -18,7 +18,7 @@ vec3 difference = vec3(0.0);  // over params.valueScale until it is gathered
 void visit(uvec4 particle, vec4 companion) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
   float weight = kernelShape(sqrt(dot(r, r)));
-  if (fluidOf(particle) != fluid) weight = 0.0;  // the velocities of two fluids differ along their interface
+  if (fluidOfWork(particle) != fluid) weight = 0.0;  // the velocities of two fluids differ along their interface
   difference += weight * (companion.xyz - own.xyz);
 }
 void reflectSums(vec3 signs) {

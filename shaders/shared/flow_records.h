@@ -63,8 +63,8 @@ struct FlowRecord {
   // Of the last rebuild.
   uint firstBorn;            // entry of the first birth
   uint candidates;
-  // Of each of several fluids, as above; emitters have the rest.
-  uint filledOf[kFluidLedgers], inactiveOf[kFluidLedgers], drainedOf[kFluidLedgers], leftOf[kFluidLedgers];
+  // Of each of several fluids, as above.
+  uint filledOf[kFluidLedgers], inactiveOf[kFluidLedgers], emittedOf[kFluidLedgers], drainedOf[kFluidLedgers], leftOf[kFluidLedgers];
 };
 
 struct EmissionPush {

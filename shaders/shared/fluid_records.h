@@ -45,7 +45,7 @@ struct FluidParams {
   uint outflowSide;       // likewise a bit; a wall up to
   float outflowLevel;     // m; kNoWall: no outflow
   uint openRemoves;       // sides, as bits of SideMask, through which particles leave for good
-  float pressureDensity;  // kg/m^3, of the densest fluid, that makes a pressure of a multiplier over the square of the step: see docs/notes/pressure.md
+  float pressureDensity;  // kg/m^3, of the densest fluid, that makes a pressure of a multiplier over the square of the step
   float bodySpeed;        // m/s, the fastest point of a body at the start
   float separationSpeed;  // m/s, at which bodies that overlap come apart, at most
   float spacing;          // m

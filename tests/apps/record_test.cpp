@@ -150,7 +150,7 @@ TEST(Record, EnergyCountsEachFluidsMass) {
   Record record(two, {}, "");
   for (const double kinetic : {0.0, 4.0}) {
     offline::Stats at = stats(0, kinetic, floor + 400);
-    at.fluidParticles = {60, 40};
+    at.fluids = {{.particles = 60}, {.particles = 40}};
     record.add(kinetic, at);
   }
   EXPECT_NEAR(figure(record, "energy_ratio"), 1.01, 1e-9);

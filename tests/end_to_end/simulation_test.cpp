@@ -394,5 +394,39 @@ TEST(Simulation, IsCleanUnderValidation) {
   for (const std::string& message : simulation->takeValidationMessages()) ADD_FAILURE() << message;
 }
 
+TEST(Simulation, ParticlesKeepTheirFluid) {
+  auto scene = parseScene(R"({
+    "rill": "0.2", "domain": {"min": [0, 0, 0], "max": [1, 1, 0.3]}, "fluid": {"spacing": 0.05},
+    "fluids": [{"name": "water"}, {"name": "oil", "density": 800}],
+    "fill": [{"box": {"max": [0.5, 0.3, 0.3]}}, {"fluid": "oil", "box": {"min": [0, 0.3, 0], "max": [0.5, 0.5, 0.3]}}],
+    "emitters": [{"fluid": "oil", "disc": {"center": [0.7, 0.8, 0.15], "radius": 0.1, "normal": [0, -1, 0]}, "flow": 0.01}]})",
+                          "two", ".");
+  ASSERT_TRUE(scene) << scene.error().message;
+  auto simulation = open({}, *scene);
+  ASSERT_TRUE(simulation);
+  ASSERT_TRUE(simulation->advance(0.25));
+  const auto particles = simulation->particles();
+  ASSERT_TRUE(particles);
+  const std::vector<uint8_t>& first = simulation->start().fluids;
+  ASSERT_EQ(particles->fluids.size(), particles->ids.size());
+  ASSERT_GT(particles->ids.size(), first.size()) << "some were emitted";
+  double oil = 0, water = 0, ofOil = 0, ofWater = 0;
+  for (size_t i = 0; i < particles->ids.size(); ++i) {
+    const uint32_t id = particles->ids[i];
+    ASSERT_EQ(particles->fluids[i], id < first.size() ? first[id] : 1) << id;
+    (particles->fluids[i] == 1 ? oil : water) += particles->densities[i];
+    (particles->fluids[i] == 1 ? ofOil : ofWater) += 1;
+  }
+  EXPECT_LT(oil / ofOil, 0.85 * water / ofWater) << "densities are those of the fluid";
+  const auto stats = simulation->stats();
+  ASSERT_TRUE(stats && stats->fluids.size() == 2);
+  EXPECT_EQ(stats->fluids[0].particles, uint64_t(ofWater));
+  EXPECT_EQ(stats->fluids[1].particles, uint64_t(ofOil));
+  EXPECT_EQ(stats->fluids[1].ledger.filled + stats->fluids[1].ledger.emitted, uint64_t(ofOil));
+  EXPECT_GT(stats->fluids[1].ledger.emitted, 0u);
+  EXPECT_EQ(stats->fluids[0].ledger.emitted, 0u);
+}
+
 }  // namespace simulation_test
+
 }  // namespace rill::offline

@@ -1,6 +1,6 @@
 // Several fluids of one spacing: substeps against the reference, momentum, and that one fluid alone is what it was.
+#include <algorithm>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "fluid/rig.hpp"
 
@@ -178,6 +178,68 @@ TEST_F(FluidsTest, SnapshotGoesOnWithTheSameBits) {
   EXPECT_THROW(start(t, &wrong), std::runtime_error);
   wrong.fluid.clear();
   EXPECT_THROW(start(t, &wrong), std::runtime_error);
+}
+
+// Drains, an open side and an emitter, and a state that goes on from a checkpoint.
+TEST_F(FluidsTest, LedgerOfEachFluidAddsUp) {
+  Trial t = mixture({1000, 400, 30});
+  t.scene.domain->open = 0b000010;
+  t.scene.domain->open_removes = true;
+  t.scene.drains = {{.shape = BoxShape{{0, 0, 0}, {0.15, 0.1, 0.4}}}};
+  t.scene.emitters = {{.mouth = DiscMouth{{0.3, 0.8, 0.3}, 0.1, {0, -1, 0}}, .speed = 2, .fluid = "fluid 2"}};
+  t.v.assign(t.x.size(), {6, 0, 0});
+  t.capacity = 2000;
+  auto first = start(t);
+  for (int n = 0; n < 4; ++n) first->substeps(20);
+  const FluidSnapshot state = first->saved();
+  auto second = start(t, &state);
+  for (int n = 0; n < 4; ++n) second->substeps(20);
+  const FluidStats stats = second->stats();
+  ASSERT_EQ(stats.fluids.size(), 3u);
+  FluidLedger sum;
+  for (const FluidFigures& f : stats.fluids) {
+    EXPECT_EQ(f.ledger.filled + f.ledger.emitted, f.particles + f.ledger.drained + f.ledger.left + f.ledger.inactive);
+    EXPECT_EQ(f.ledger.filled, t.x.size() / 3);
+    sum.emitted += f.ledger.emitted, sum.drained += f.ledger.drained, sum.left += f.ledger.left;
+  }
+  EXPECT_EQ(sum.emitted, stats.ledger.emitted);
+  EXPECT_EQ(sum.drained, stats.ledger.drained);
+  EXPECT_EQ(sum.left, stats.ledger.left);
+  EXPECT_GT(sum.drained, 0u);
+  EXPECT_GT(sum.left, 0u);
+  EXPECT_GT(stats.fluids[2].ledger.emitted, 0u);
+  EXPECT_EQ(stats.fluids[0].ledger.emitted + stats.fluids[1].ledger.emitted, 0u);
+}
+
+// Far from the origin the last bit of a place, which has the index, is 8 um.
+TEST_F(FluidsTest, ParticlesInFreeFlightDoNotDrift) {
+  Trial t = trial();
+  t.scene.gravity[1] = 0;
+  for (int k = 0; k < 8; ++k) {
+    t.scene.fluids.push_back({.name = std::to_string(k)});
+    t.x.push_back({k % 2 == 0 ? 64.3 : -64.3, -65.1 + k, 66.7});
+    t.v.push_back({0.37, -0.213, 0.119});
+    t.fluids.push_back(static_cast<uint8_t>(k));
+  }
+  Trial one = t;
+  one.scene.fluids.clear();
+  one.fluids.clear();
+  auto several = start(t), alone = start(one);
+  for (int n = 0; n < 10; ++n) several->substeps(100), alone->substeps(100);
+  const Snapshot end = several->snapshot(), expected = alone->snapshot();
+  for (size_t i = 0; i < end.x.size(); ++i) EXPECT_LT(glm::length(end.x[i] - expected.x[i]), 1e-3) << i;
+}
+
+TEST_F(FluidsTest, WarnsOfWhatItDoesNotDo) {
+  Trial t = mixture({1000, 0.01});
+  t.scene.solver.sleep = true;
+  auto run = start(t);
+  const auto warnings = run->fluid().warnings();
+  EXPECT_EQ(std::ranges::count(warnings, "solver.sleep: has no effect in a scene with several fluids"), 1);
+  const std::string ratio = "fluids.fluid 1.density: found 0.01 kg/m^3, ";
+  EXPECT_TRUE(std::ranges::any_of(warnings, [&](const std::string& w) { return w.starts_with(ratio); }));
+  run->substeps(50);
+  EXPECT_TRUE(run->snapshot().finite());
 }
 
 }  // namespace fluids_test

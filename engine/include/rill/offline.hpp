@@ -162,7 +162,6 @@ using ProbeValue = std::variant<double, LoadValue, PoseValue, PressureValue, Flo
 /// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
   double front_m = 0;                                           ///< farthest fluid along +x, relative to the domain's minimum, m
-  std::vector<uint64_t> fluidParticles = {};                    ///< number of particles of each of resolvedFluids()
   uint64_t stateHash = 0;                                       ///< FNV-1a of positions and velocities in id order, then of bodies
   std::vector<std::pair<std::string, ProbeValue>> probes = {};  ///< name and value
   std::optional<WhitewaterStats> whitewater = {};               ///< with Look::whitewater
