@@ -18,6 +18,10 @@ constexpr std::string_view kHeave = "short waves lose a fifth of their height an
 constexpr std::string_view kReleased =
     "in the first step the body takes the load that it had when it was held, before the reaction of the fluid";
 
+constexpr std::string_view kLayerPressure = "the probe reads as much too high in a tank of one fluid";
+constexpr std::string_view kLightLayer = "what little pressure moves heavy particles at the interface moves light ones far";
+constexpr std::string_view kShear = "fluids that pass each other lose speed at their interface, which is a few spacings thick";
+
 constexpr Band kBands[] = {
     {"martin-moyce-1",
      "front, shifted",
@@ -94,6 +98,16 @@ constexpr Band kBands[] = {
     // Not checked until inflows keep together where steps are short: docs/notes/flows.md, Limits.
     {"hydraulic-jump", "Froude number", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
     {"hydraulic-jump", "depth ratio", 0.05, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"layers-1000", "pressure, in the light layer", 0.01, {0.16, 0.1, 0.09}, "%", kLightLayer},
+    {"layers-1000", "level", 0.001, {0.035, 0.022, 0.016}, "%", kLightLayer},
+    {"layers", "pressure, in the heavy layer", 0.01, {0.03, 0.03, 0.03}, "%", kLayerPressure},
+    {"layers", "pressure, in the light layer", 0.01, {0.03, 0.03, 0.03}, "%", kLayerPressure},
+    {"layers", "level", 0.001, {0.002, 0.0015, 0.001}, "%", kLightLayer},
+    {"layers-10", "rms speed", 0.01, {0.035, 0.03, 0.025}, "m/s", kLightLayer},
+    {"layers", "rms speed", 0.01, {0.01, 0.01, 0.01}, "m/s", ""},
+    {"layers", "in the wrong layer", kNoAim, {0.001, 0.001, 0.001}, "%", ""},
+    {"rayleigh-taylor", "growth rate", 0.1, {0.16, 0.1, 0.12}, "%", "the lattice of the start gives way while the wave grows"},
+    {"lock-exchange", "Froude number", 0.1, {0.55, 0.5, 0.46}, "%", kShear},
     {"elliptic-drop", "long axis, end", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "long axis, worst", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
     {"elliptic-drop", "short axis, end", kNoAim, {1.3, 6, 3}, "%", ""},
