@@ -78,16 +78,17 @@ void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3
   // The entries without a particle, and the dummy neighbor behind them, are inactive.
   const Float4 inactive{kInactivePosition, kInactivePosition, kInactivePosition, 0.0f};
   const size_t entries = size_t{capacity} + 1;
-  std::vector<float> stored, tagged;
-  if (setup.fluids > 1) {
-    fluids.resize(positions.size());
-    stored.assign(fluids.begin(), fluids.end());
-    for (const uint8_t fluid : fluids) tagged.push_back(taggedFluid(fluid));
-  }
   // Predictions start as the positions; they and `work` end with the dummy neighbor.
   const float w = rowOf(Position).w;
-  staging_->add(slotOf(Prediction), buffer(Prediction).size(), quads(positions, std::move(tagged), w, inactive, entries));
+  if (setup.fluids > 1) {
+    fluids.resize(positions.size());
+    std::vector<float> tagged;
+    for (const uint8_t fluid : fluids) tagged.push_back(taggedFluid(fluid));
+    staging_->add(slotOf(Prediction), buffer(Prediction).size(), quads(positions, std::move(tagged), w, inactive, entries));
+  }
+  std::vector<float> stored(fluids.begin(), fluids.end());
   staging_->add(slotOf(Position), buffer(Position).size(), quads(std::move(positions), std::move(stored), w, inactive, entries));
+  if (setup.fluids == 1) staging_->addSame(slotOf(Prediction), slotOf(Position));
   staging_->addSame(slotOf(Work), slotOf(Position));
   staging_->add(slotOf(Velocity), buffer(Velocity).size(),
                 quads(std::move(velocities), {}, rowOf(Velocity).w, Float4{0, 0, 0, 1}, entries));
