@@ -137,6 +137,7 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     scene.fill[0].jitter = chance(0.3) ? uniform(0, 0.5) : 0;
 
     if (seed % 3 == 1) addRandomFlows(scene, seed);
+    if (seed % 4 == 2) addRandomFluids(scene, seed);
     StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
     c.duration_s = 12 * std::sqrt(d / 10);
     c.frame_s = c.duration_s / 12;

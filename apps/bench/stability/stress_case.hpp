@@ -50,6 +50,8 @@ std::vector<StressCase> bodyCases();   ///< rigid bodies
 std::vector<StressCase> flowCases();   ///< emitters and drains
 /// Up to three emitters and two drains in the domain of a scene.
 void addRandomFlows(Scene& scene, uint64_t seed);
+/// Two to eight fluids of densities up to 1:1000 and any viscosity, side by side in the scene's fill, a box; emitters get one of them.
+void addRandomFluids(Scene& scene, uint64_t seed);
 std::vector<StressCase> sizeCases();                                  ///< numbers of particles at internal limits
 std::vector<StressCase> parameterCases();                             ///< each key of fluid and solver at its minimum and maximum
 std::vector<StressCase> randomCases(uint64_t first, uint64_t count);  ///< reproducible: the name is the seed

@@ -54,6 +54,8 @@ constexpr const char* kSphere = R"([{"sphere": {"center": [2.8, 0.3, 0.5], "radi
 constexpr const char* kMoving =
     R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "motion": [{"at": 0}, {"at": 1, "translate": [0.5, 0, 0]}]}])";
 
+constexpr const char* kFluids = R"([{"name": "water"}, {"name": "oil", "density": 900}])";  // all of the base scene is water
+
 /// The ball of kSphere as a mesh.
 Solid meshBall() {
   Solid solid{.translation = {2.8, 0.3, 0.5}};
@@ -72,6 +74,7 @@ std::vector<Feature> features() {
       {"drag", {{"rill", "\"0.2\""}, {"fluid.drag", "0.5"}}, {{"rill", "\"0.2\""}, {"fluid.drag", "0"}}},
       // When it is off, its other settings must have no effect.
       {"tensile", {{"fluid.tensile", "0.5"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
+      {"several fluids", {{"rill", "\"0.2\""}, {"fluids", kFluids}}, {{"rill", "\"0.2\""}, {"fluids", "[]"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
       {"solid out of reach", {{"solids", kDistantBox}}},  // without a solid it equals "solid box" off
       {"solid sphere", {{"solids", kSphere}}},
