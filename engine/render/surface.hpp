@@ -56,7 +56,7 @@ class SurfaceStage {
   enum class Of : uint8_t { All, EachFluid };
 
   /// Thickness along each sample's ray in units of `push.unit`, one sample per `push.step` pixels. Of each fluid: as many grids of samples,
-  /// and with a `sceneDepth` as many more, of the bits of the depth of its nearest particle, inverted; 0 where there is none.
+  /// and with a `sceneDepth` as many more, of the bits of the depth of its nearest particle, inverted; 0 without one.
   /// `sceneDepth`: m per pixel, hides fluid behind it; may be an empty ref.
   /// `surface`: the result of addTo() for the same state, which counts kBoundHits; may be null.
   BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,

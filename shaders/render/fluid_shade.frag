@@ -102,7 +102,7 @@ float thicknessAt(vec2 pixel) {
   return sum;
 }
 
-// Depth where one of several fluids begins, in m; noDepth() where there is none.
+// Depth where one of several fluids begins, in m; noDepth() without any.
 float beginOf(uint fluid, Around near) {
   const uvec4 s = near.samples + (FLUIDS + fluid) * near.grid;
   const vec2 rest = 1.0 - near.part;

@@ -10,7 +10,6 @@
 //   if (auto ok = rill::checkScene(scene); !ok) return fail(ok.error().message);
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -18,7 +17,7 @@
 
 #include "rill/expected.hpp"
 #include "rill/export.hpp"
-#include "rill/mesh.hpp"
+#include "rill/shapes.hpp"
 #include "rill/vectors.hpp"
 
 namespace rill {
@@ -107,31 +106,6 @@ struct SolverSettings {
   NeighborChoice neighbors = NeighborChoice::List;
   bool sleep = false;  ///< fluid at rest, or regions of it, take no part in substeps until something moves them
 };
-
-/// An axis-aligned box.
-struct BoxShape {
-  Double3 min = {0, 0, 0}, max = {1, 1, 1};  ///< corners, m; max above min on every axis
-};
-/// A sphere.
-struct SphereShape {
-  Double3 center = {0, 0, 0};  ///< m
-  double radius = 1;           ///< m, > 0
-};
-
-/// The axis of a mesh file that points up.
-enum class UpAxis : uint8_t { Y, Z };
-
-/// A triangle mesh. Its frame is that of the file after `up` and `scale`; its center is the origin of this frame.
-struct MeshShape {
-  std::filesystem::path file = {};  ///< OBJ, STL, PLY, glTF or GLB; an absolute path once the scene is loaded; empty: `mesh` is the host's
-  double scale = 1;                 ///< m per unit of the file, > 0
-  UpAxis up = UpAxis::Y;
-  bool two_sided = false;                 ///< a sheet: a shell that reaches half a spacing to each side
-  std::shared_ptr<const Mesh> mesh = {};  ///< in m; read from `file` by loadScene(), or the host's
-};
-
-/// The shape of a solid.
-using Shape = std::variant<BoxShape, SphereShape, MeshShape>;
 
 /// A file of particles.
 struct ParticleFile {
