@@ -134,6 +134,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
     if (!step.resume) emptyTime_ += step.advance_s;
     FluidStats none;
     none.time_s = emptyTime_;
+    none.fluids.resize(setup.fluids);
     stats = none;
     progress = {.known = true, .time_s = emptyTime_};
     return state;

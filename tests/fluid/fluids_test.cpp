@@ -211,6 +211,14 @@ TEST_F(FluidsTest, LedgerOfEachFluidAddsUp) {
   EXPECT_EQ(stats.fluids[0].ledger.emitted + stats.fluids[1].ledger.emitted, 0u);
 }
 
+TEST_F(FluidsTest, WithoutParticlesEachHasItsRow) {
+  Trial t = mixture({1000, 400});
+  t.x.clear(), t.v.clear(), t.fluids.clear();
+  const FluidStats stats = start(t)->stats();
+  ASSERT_EQ(stats.fluids.size(), 2u);
+  EXPECT_EQ(stats.fluids[1].particles, 0u);
+}
+
 // Far from the origin the last bit of a place, which has the index, is 8 um.
 TEST_F(FluidsTest, ParticlesInFreeFlightDoNotDrift) {
   Trial t = trial();
