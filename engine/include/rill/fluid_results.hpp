@@ -1,5 +1,8 @@
 #pragma once
 // What a Fluid (rill/fluid.hpp) measures: loads on solids, pressures, flows, motions of bodies, and statistics.
+//
+//   const std::optional<rill::FluidStats> stats = water.stats();  // of the last frame that asked for them
+//   if (stats && stats->ledger.drained == stats->ledger.filled) return 0;  // everything has drained
 #include <cstdint>
 #include <optional>
 #include <vector>

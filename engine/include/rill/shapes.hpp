@@ -1,5 +1,9 @@
 #pragma once
 // Shapes of solids and fills in a scene (rill/scene.hpp). SI units.
+//
+//   const rill::BoxShape crate{{0.4, 0, 0.4}, {0.6, 0.2, 0.6}};
+//   const rill::SphereShape ball{.center = {1, 0.5, 0.5}, .radius = 0.1};
+//   rill::MeshShape bunny{.file = "/models/bunny.stl", .scale = 0.001};  // a file in millimeters
 #include <cstdint>
 #include <filesystem>
 #include <memory>
