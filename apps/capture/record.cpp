@@ -117,6 +117,7 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   frame["neighbour_overflow"] = stats.neighborOverflow;
   frame["loop_bound_hits"] = stats.loopBoundHits;
   frame["viscosity_bound_hits"] = stats.viscosityBoundHits;
+  frame["diffusion_bound_hits"] = stats.diffusionBoundHits;
   frame["picture_bound_hits"] = stats.pictureBoundHits;
   frame["list_builds"] = stats.listBuilds;
   frame["artificial_viscosity_Pa_s"] = stats.artificialViscosity_Pa_s;
@@ -201,6 +202,7 @@ std::vector<Figure> Record::figures() const {
       {"neighbour_overflow", of(&Stats::neighborOverflow)(largest), ""},
       {"loop_bound_hits", of(&Stats::loopBoundHits)(largest), ""},
       {"viscosity_bound_hits", double(last.viscosityBoundHits), ""},
+      {"diffusion_bound_hits", double(last.diffusionBoundHits), ""},
       {"picture_bound_hits", double(pictureBoundHits()), ""},
   };
   const FluidLedger& ledger = last.ledger;
@@ -302,6 +304,9 @@ std::vector<std::string> Record::warnings() const {
   if (last.viscosityBoundHits > 0)
     warnings.push_back("warning: in " + grouped(last.viscosityBoundHits) + " substeps viscosity needed more steps than its solve takes: " +
                        (scene_->fluids.empty() ? "fluid.viscosity" : "that of the fluids") + " acted as less");
+  if (last.diffusionBoundHits > 0)
+    warnings.push_back("warning: " + grouped(last.diffusionBoundHits) +
+                       " steps of diffusion needed more stages than they take: that of the " + "fluids acted as less");
   if (last.loopBoundHits > 0)
     warnings.push_back("warning: loops of the fluid's shaders reached their limit " + grouped(last.loopBoundHits) +
                        " times since the start: some particles have too many neighbors, or bodies touch too many solids");

@@ -25,6 +25,8 @@ uint64_t sumsOfSolids(const ArrayShape& s) {
   return kSolidSumWords * perSolidIfLoads(s) + (s.noSlipBodies ? kNoSlipSumWords * s.bodies : 0);
 }
 
+uint64_t concentrations(const ArrayShape& s) { return s.diffuses ? withDummy(s) : 0; }
+
 template <bool ArrayShape::*Feature>
 uint64_t perParticleIf(const ArrayShape& s) {
   return s.*Feature ? s.particles : 0;
@@ -78,6 +80,8 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {Rest, "rest", "zones of particles", Fluid, kWord, [](const ArrayShape& s) { return s.regions > 0 ? s.particles : 0; },
        Account::Particles, &FluidSnapshot::rest, "rest", true},
       {Multiplier, "multiplier", "multipliers", Fluid, kWord, perParticleIf<&ArrayShape::multipliers>, Account::Particles},
+      {Concentration, "concentration", "concentrations", Fluid, kVector, concentrations, Account::Particles, &FluidSnapshot::concentration,
+       "mixture", true},
       {ListHead, "listHead", "list heads", Fluid, kWord,
        [](const ArrayShape& s) { return s.lists || s.solids > 0 || s.regions > 0 ? s.particles : 0; }, Account::Particles},
       {Cell, "cell", "cells", Fluid, kWord, perParticle, Account::Particles},
@@ -107,6 +111,7 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
        [](const ArrayShape& s) { return s.viscous ? s.particles + 1 : 0; }, Account::Particles},
       {NextDirection, "nextDirection", "next directions of viscosity", Section, kVector,
        [](const ArrayShape& s) { return s.viscous ? s.particles + 1 : 0; }, Account::Particles},
+      {NextConcentration, "nextConcentration", "next concentrations", Section, kVector, concentrations, Account::Particles},
       {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
       {OrderedPosition, "orderedPosition", "ordered positions", Section, kVector, perParticle},
       {Histogram, "histogram", "error histogram", Section, kWord, [](const ArrayShape&) { return uint64_t{3 * kMeasureBins}; }},
@@ -121,6 +126,8 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {SweepTo, "sweepTo"},
       {DirectionFrom, "directionFrom"},
       {DirectionTo, "directionTo"},
+      {ConcentrationFrom, "concentrationFrom"},
+      {ConcentrationTo, "concentrationTo"},
       {SortStart, "start"},
       {SortArrived, "arrived"},
       {SortOrder, "order"},
@@ -166,7 +173,8 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .loads = setup.loads,
           .noSlipSolids = setup.noSlipSolids,
           .noSlipBodies = setup.noSlipBodies,
-          .removes = setup.removes};
+          .removes = setup.removes,
+          .diffuses = p.maxDiffusionRate > 0};
 }
 
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
@@ -189,7 +197,8 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .vorticity = scene.fluid.vorticity > 0,
           .loads = !scene.solids.empty(),  // a host may ask for them
           .noSlipSolids = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid); }),
-          .noSlipBodies = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid) && solid.body; })};
+          .noSlipBodies = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid) && solid.body; }),
+          .diffuses = !diffusingFluids(scene).empty()};
 }
 
 uint64_t arrayBytes(FluidArray array, const ArrayShape& shape) {

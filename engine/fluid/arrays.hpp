@@ -51,6 +51,7 @@ enum class FluidArray : uint8_t {
   Id,
   Rest,
   Multiplier,
+  Concentration,
   ListHead,
   Cell,
   NearDisplaced,
@@ -73,6 +74,7 @@ enum class FluidArray : uint8_t {
   Residual,
   Direction,
   NextDirection,
+  NextConcentration,
   Curl,
   OrderedPosition,
   Histogram,
@@ -86,6 +88,8 @@ enum class FluidArray : uint8_t {
   SweepTo,
   DirectionFrom,
   DirectionTo,
+  ConcentrationFrom,
+  ConcentrationTo,
   SortStart,
   SortArrived,
   SortOrder,
@@ -103,7 +107,7 @@ struct ArrayShape {
   uint64_t fluids = 1, gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
            mouthPoints = 0, drains = 0, regions = 0, meshWords = 0, keyframes = 0;
   bool lists = true, warm = false, multipliers = false, smooths = false, viscous = false, vorticity = false, loads = false,
-       noSlipSolids = false, noSlipBodies = false, removes = false;
+       noSlipSolids = false, noSlipBodies = false, removes = false, diffuses = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);
 /// An upper bound, from the scene alone.

@@ -69,15 +69,17 @@ void FluidImpl::takeFlows(std::span<const std::byte> flow, std::span<const std::
 }
 
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
-  const Executed done{executed_.substeps - executedBefore_.substeps, executed_.iterations - executedBefore_.iterations,
-                      executed_.builds - executedBefore_.builds, executed_.noiseDampings - executedBefore_.noiseDampings,
-                      executed_.fallsAsleep - executedBefore_.fallsAsleep};
+  const Executed done{executed_.substeps - executedBefore_.substeps,     executed_.iterations - executedBefore_.iterations,
+                      executed_.builds - executedBefore_.builds,         executed_.noiseDampings - executedBefore_.noiseDampings,
+                      executed_.diffusions - executedBefore_.diffusions, executed_.fallsAsleep - executedBefore_.fallsAsleep};
   const auto executed = [&](Start start) {
     switch (start) {
       case Start::Iterate:
         return done.iterations - done.substeps;
       case Start::NoiseDamping:
         return done.noiseDampings;
+      case Start::Diffusion:
+        return done.diffusions;
       case Start::Rebuild:
         return done.builds;
       case Start::FallAsleep:
@@ -156,7 +158,7 @@ void FluidImpl::poll() const {
     pending_.erase(pending_.begin(), next);
     const Pending& pending = pending_.front();
     executedBefore_ = std::exchange(executed_, {control.executedSubsteps, control.executedIterations, control.executedBuilds,
-                                                control.executedNoiseDampings, control.executedFallsAsleep});
+                                                control.executedNoiseDampings, control.executedDiffusions, control.executedFallsAsleep});
     recordedBefore_ = std::exchange(recordedLast_, pending.recorded);
     count = control.count;
     progress = {.known = true,
@@ -211,6 +213,7 @@ void FluidImpl::poll() const {
       s.neighborOverflow = sums.overflow;
       s.loopBoundHits = sums.boundHits;
       s.viscosityBoundHits = sums.viscosityBoundHits;
+      s.diffusionBoundHits = sums.diffusionBoundHits;
       s.listBuilds = control.builds;
       s.artificialViscosity_Pa_s = setup.artificialViscosity * control.restFraction;
       stats = s;

@@ -93,7 +93,7 @@ class FluidImpl {
 
   /// What of it the device executed.
   struct Executed {
-    uint32_t substeps = 0, iterations = 0, builds = 0, noiseDampings = 0, fallsAsleep = 0;
+    uint32_t substeps = 0, iterations = 0, builds = 0, noiseDampings = 0, diffusions = 0, fallsAsleep = 0;
   };
 
   struct Pending {
@@ -127,6 +127,7 @@ class FluidImpl {
   void stageFlows();
   void resumeFlows(const FluidSnapshot& snapshot);
   void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities, std::vector<uint8_t> fluids);
+  void stageConcentrations(std::vector<Float4> given, const std::vector<uint8_t>& fluids);  ///< `given`: empty: nothing has mixed
   // host_input.cpp
   void declareUpload(Graph& graph);
   void declareDrive(Graph& graph, const FluidStep& step);
@@ -157,6 +158,7 @@ class FluidImpl {
   void declareViscosity(Graph& graph);
   void declareNoSlip(Graph& graph);
   void declareNoiseDamping(Graph& graph);
+  void declareDiffusion(Graph& graph);
   // measure_passes.cpp
   void declareMeasure(Graph& graph, Pending& pending);
   // declare.cpp

@@ -31,6 +31,9 @@ constexpr std::array<float FluidParams::*, kMaxFluids> kViscosities{
     &FluidParams::viscosity0, &FluidParams::viscosity1, &FluidParams::viscosity2, &FluidParams::viscosity3,
     &FluidParams::viscosity4, &FluidParams::viscosity5, &FluidParams::viscosity6, &FluidParams::viscosity7};
 
+constexpr std::array<uint32_t FluidParams::*, kMaxDiffusing> kDiffusing{&FluidParams::diffusing0, &FluidParams::diffusing1,
+                                                                        &FluidParams::diffusing2, &FluidParams::diffusing3};
+
 }  // namespace
 
 double densestFluid(const Scene& scene) {
@@ -50,6 +53,11 @@ double fastestViscosity(const Scene& scene) {
   return viscosity > 0 ? largestKinematicViscosity(scene) * densestFluid(scene) / viscosity : 0;
 }
 
+Float4 unmixed(const FluidParams& params, uint8_t fluid) {
+  const auto share = [&](uint32_t diffusing) { return diffusing == fluid ? 1.0F : 0.0F; };
+  return {share(params.diffusing0), share(params.diffusing1), share(params.diffusing2), share(params.diffusing3)};
+}
+
 void addFluids(const Scene& scene, FluidSetup& setup) {
   if (scene.fluids.size() < 2) return;
   const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
@@ -64,6 +72,9 @@ void addFluids(const Scene& scene, FluidSetup& setup) {
                                roundedNumber(kMaxDensityRatio) + " times; it is simulated with this ratio");
     setup.params.*kViscosities[k] = viscosity > 0 ? f(fluids[k].viscosity / viscosity) : 0;
   }
+  for (const auto index : kDiffusing) setup.params.*index = kNoFluid;
+  const std::vector<size_t> diffusing = diffusingFluids(scene);
+  for (size_t k = 0; k < diffusing.size(); ++k) setup.params.*kDiffusing[k] = static_cast<uint32_t>(diffusing[k]);
 }
 
 }  // namespace rill

@@ -1,6 +1,8 @@
 #pragma once
 // Several fluids, as the solver sees them: masses and viscosities over the largest ones.
 #include "rill/scene.hpp"
+#include "rill/vectors.hpp"
+#include "shared/fluid_records.h"
 
 namespace rill {
 
@@ -14,6 +16,9 @@ double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s
 /// The largest product of a fluid's inverse mass and viscosity, each over that of the densest and of the most viscous fluid: at least 1 if
 /// any is viscous, else 0. It multiplies FluidParams::viscosityRate.
 double fastestViscosity(const Scene& scene);
+
+/// Concentrations in a particle of one fluid that has not mixed, as shaders/fluid/fluids.glsl has them.
+Float4 unmixed(const FluidParams& params, uint8_t fluid);
 
 /// Sets FluidSetup::fluids and what shaders need of several fluids, and warns of density ratios beyond 1000. With one there is nothing.
 void addFluids(const Scene& scene, FluidSetup& setup);

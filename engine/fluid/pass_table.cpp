@@ -27,6 +27,8 @@ bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
 bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
 bool loadsAsleep(const FluidSetup& s) { return sleeps(s) && (loads(s) || probesPressure(s)); }
+bool diffuses(const FluidSetup& s) { return s.params.maxDiffusionRate > 0; }
+bool stepsOfDiffusion(const FluidSetup& s) { return diffuses(s) && s.params.diffusionStages > 1; }
 bool several(const FluidSetup& s) { return s.fluids > 1; }
 bool separate(const FluidSetup& s) { return !s.mergesPasses; }
 bool forcesOrDamping(const FluidSetup& s) { return hasForces(s) || noisy(s); }
@@ -38,14 +40,14 @@ constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
     kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"},
     kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep},
-    kRegions{regions, nullptr, &FluidSetup::whyNoRegions}, kFluids{several, "one fluid"};
+    kRegions{regions, nullptr, &FluidSetup::whyNoRegions}, kFluids{several, "one fluid"}, kDiffuses{diffuses, "no fluid diffuses"};
 
 using P = FluidPass;
 using E = Extent;
 using S = Start;
 constexpr PassOptions kClusters{.clusters = true}, kForce{.force = true};
 constexpr std::array<S, 2> kEnd{S::Correct}, kEndOrDamped{S::Correct, S::NoiseDamping}, kFigures{S::Figures}, kRebuild{S::Rebuild},
-    kSolve{S::Density, S::Iterate};
+    kDiffusion{S::Diffusion}, kSolve{S::Density, S::Iterate};
 
 constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::PlanEmission, "plan emission", "fluid/plan_emission", E::One, {}, {emits}},
@@ -62,6 +64,8 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::RestZones, "zones of regions", "fluid/rest_zones", E::Regions, kRebuild, {regions}},
     {P::Keys, "keys", "fluid/keys", E::Keys, kRebuild, kAlways, {.constant = {"REBUILDS", true}}},
     {P::Reorder, "reorder", "fluid/reorder", E::Particles, kRebuild},
+    {P::SortConcentration, "sort concentrations", "fluid/sort_concentration", E::Particles, kRebuild, {diffuses}},
+    {P::KeepConcentration, "keep concentrations", "fluid/keep_concentration", E::Particles, kRebuild, {diffuses}},
     {P::BuildList, "build list", "fluid/build", E::Chunks, kRebuild, kAlways, kClusters},
     {P::FinishRebuild, "finish rebuild", "fluid/finish_rebuild"},
 
@@ -96,6 +100,10 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::NoSlipLoads, "no-slip loads", "fluid/no_slip_loads", E::One, kEnd, {noSlipLoads}},
     {P::VelocityNoise, "velocity noise", "fluid/velocity_noise", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::NoiseDamping, "noise damping", "fluid/noise_damping", E::Gather, {S::NoiseDamping}, kNoisy},
+    {P::Diffusion, "diffusion", "fluid/diffusion", E::Gather, kDiffusion, kDiffuses},
+    {P::DiffusionPlan, "diffusion plan", "fluid/diffusion_plan", E::One, kDiffusion, {diffuses}},
+    {P::DiffusionStart, "diffusion start", "fluid/diffusion_start", E::Particles, kDiffusion, {diffuses}},
+    {P::DiffusionStep, "diffusion step", "fluid/diffusion_step", E::Gather, kDiffusion, {stepsOfDiffusion}},
     {P::Curl, "curl", "fluid/curl", E::Gather, kEnd, kSwirls, kForce},
     {P::Confine, "confine", "fluid/confine", E::Gather, kEnd, kSwirls, kForce},
     {P::Drag, "drag", "fluid/drag", E::Particles, kEnd, kDrags, kForce},

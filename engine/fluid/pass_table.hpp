@@ -29,6 +29,8 @@ enum class FluidPass : uint8_t {
   RestZones,
   Keys,
   Reorder,
+  SortConcentration,
+  KeepConcentration,
   BuildList,
   FinishRebuild,
   // A substep.
@@ -60,6 +62,10 @@ enum class FluidPass : uint8_t {
   NoSlipLoads,
   VelocityNoise,
   NoiseDamping,
+  Diffusion,
+  DiffusionPlan,
+  DiffusionStart,
+  DiffusionStep,
   Curl,
   Confine,
   Drag,
@@ -91,6 +97,7 @@ enum class Start : uint8_t {
   Rebuild = kStartRebuild,
   Figures = kStartFigures,
   FallAsleep = kStartFallAsleep,
+  Diffusion = kStartDiffusion,
   kCount
 };
 constexpr size_t kStarts = static_cast<size_t>(Start::kCount);

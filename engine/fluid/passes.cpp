@@ -50,6 +50,8 @@ void FluidImpl::declareRebuild(Graph& graph) {
   sortKeys(graph, FluidPass::Keys, Start::Rebuild, Prediction, targets, &gate);
   ref(CellStart) = ref(SortStart);
   declare(graph, FluidPass::Reorder, Start::Rebuild);
+  declare(graph, FluidPass::SortConcentration, Start::Rebuild);
+  declare(graph, FluidPass::KeepConcentration, Start::Rebuild);
   declare(graph, FluidPass::BuildList, Start::Rebuild, ChunkPush{});
   declare(graph, FluidPass::FinishRebuild);
 }
@@ -93,6 +95,7 @@ FluidState FluidImpl::present(Graph& graph) const {
   state.position = importWhole(graph, "positions", buffer(FluidArray::Position));
   state.velocity = importWhole(graph, "velocities", buffer(FluidArray::Velocity));
   state.id = importWhole(graph, "ids", buffer(FluidArray::Id));
+  if (setup.params.maxDiffusionRate > 0) state.concentration = importWhole(graph, "concentrations", buffer(FluidArray::Concentration));
   state.countBuffer = state.control = importWhole(graph, "control", buffer(FluidArray::Control));
   if (!setup.solids.empty()) state.boundaries = importWhole(graph, "solids", buffer(FluidArray::Solids));
   if (drawsFromRecords(setup)) state.solids = state.boundaries;
@@ -187,6 +190,7 @@ FluidState FluidImpl::addTo(Graph& graph, const FluidStep& step) {
   state.position = ref(FluidArray::Position);
   state.velocity = ref(FluidArray::Velocity);
   state.id = ref(FluidArray::Id);
+  if (setup.params.maxDiffusionRate > 0) state.concentration = ref(FluidArray::Concentration);
   state.countBuffer = state.control = ref(FluidArray::Control);
   if (!setup.solids.empty()) state.boundaries = ref(FluidArray::Solids);
   if (drawsFromRecords(setup)) state.solids = state.boundaries;

@@ -13,8 +13,10 @@
 #include "fluid/sleep.hpp"
 #include "fluid/stability_limits.hpp"
 #include "shape/pose.hpp"
+#include "shared/diffusion_steps.h"
 #include "shared/viscosity_steps.h"
 #include "sph/artificial_pressure.hpp"
+#include "sph/diffusion.hpp"
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
 #include "sph/liquid_scale.hpp"
@@ -81,6 +83,25 @@ void setViscositySteps(const Scene& scene, const SmoothingKernel& kernel, FluidS
   const double rate = setup.params.viscosityRate * fastestViscosity(scene);
   const double bound = 1 + kCrowded * (latticeBound(rate * setup.longestStep, kernel) - 1);
   setup.params.viscositySteps = shared::viscositySteps(bound, kMaxSteps).count;
+}
+
+// As many stages as the longest block asks for where the fluid is somewhat denser than its rest lattice.
+void setDiffusion(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
+  constexpr uint32_t kMaxStages = 16;
+  constexpr double kCrowded = 1.5, kMaxDiffusionRate = 1e20;  // 1/s
+  constexpr float FluidParams::*kRates[] = {&FluidParams::diffusionRate0, &FluidParams::diffusionRate1, &FluidParams::diffusionRate2,
+                                            &FluidParams::diffusionRate3};
+  const std::vector<size_t> diffusing = diffusingFluids(scene);
+  double fastest = 0;
+  for (size_t k = 0; k < diffusing.size(); ++k) {
+    const double diffusivity = scene.fluids[diffusing[k]].diffusion;
+    setup.params.*kRates[k] = f(std::min(diffusionRate(diffusivity, kernel), kMaxDiffusionRate));
+    fastest = std::max(fastest, diffusivity);
+  }
+  if (fastest == 0) return;
+  setup.params.maxDiffusionRate = f(std::min(diffusionRate(fastest, kernel), kMaxDiffusionRate));
+  const double length = kCrowded * setup.params.maxDiffusionRate * diffusionRow(kernel) * setup.substepsPerBlock * setup.longestStep;
+  setup.params.diffusionStages = shared::diffusionStages(length, kMaxStages);
 }
 
 void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
@@ -392,6 +413,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setColumn(scene, start, setup);
   setLongestStep(scene, setup);
   setViscositySteps(scene, kernel, setup);
+  setDiffusion(scene, kernel, setup);
   setInitialPressure(scene, kernel, room, setup);
 
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();

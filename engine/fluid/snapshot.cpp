@@ -69,7 +69,10 @@ Expected<void> checkLengths(const FluidSnapshot& s, const SnapshotShape& shape) 
     return wrong("it has particles of fluid " + std::to_string(*std::ranges::max_element(s.fluid)) + "; expected an index below " +
                  std::to_string(shape.fluids));
   Expected<void> result;
+  if (s.concentration.size() > count)  // of particles that were added there are none
+    return wrong("mixture has " + std::to_string(s.concentration.size()) + " entries; expected at most " + std::to_string(count));
   forEachSaved([&](const ArrayRow& row, auto member) {
+    if (row.id == FluidArray::Concentration) return;
     // Of a fluid without a warm start, or without regions, there are none.
     const bool absent = row.id == FluidArray::Rest ? s.regions.empty() : row.optional && s.warmAcceleration.empty() && s.warmStart.empty();
     if (result) result = checkLength(row.savedName, (s.*member).size(), absent ? 0 : count);

@@ -102,6 +102,7 @@ void SnapshotReader::takeRecords(std::span<const std::span<const std::byte>> dat
   std::memcpy(&control, data[0].data(), sizeof control);
   control.substeps = control.iterations = control.builds = 0;
   control.executedSubsteps = control.executedIterations = control.executedBuilds = control.executedNoiseDampings = 0;
+  control.executedDiffusions = 0;
   control.executedFallsAsleep = 0;
   control.timeAsleep = 0;
   control.timeDropped = 0;

@@ -9,6 +9,7 @@
 
 #include "fluid/flows.hpp"
 #include "fluid/fluid_impl.hpp"
+#include "fluid/fluids.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "fluid/sleep.hpp"
 #include "fluid/snapshot.hpp"
@@ -94,6 +95,15 @@ void FluidImpl::stageParticles(std::vector<Float3> positions, std::vector<Float3
                 quads(std::move(velocities), {}, rowOf(Velocity).w, Float4{0, 0, 0, 1}, entries));
 }
 
+void FluidImpl::stageConcentrations(std::vector<Float4> given, const std::vector<uint8_t>& fluids) {
+  if (!(setup.params.maxDiffusionRate > 0)) return;
+  given.reserve(size_t{capacity} + 1);
+  for (size_t i = given.size(); i < count; ++i) given.push_back(unmixed(setup.params, i < fluids.size() ? fluids[i] : uint8_t{0}));
+  given.resize(size_t{capacity} + 1);  // with the dummy neighbor
+  const uint64_t bytes = given.size() * sizeof given[0];
+  staging_->add(slotOf(FluidArray::Concentration), bytes, bytesOf(std::move(given)));
+}
+
 void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   std::vector<Float3> positions = particles.positions, velocities = particles.velocities;
   std::vector<uint32_t> id(count);
@@ -126,6 +136,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   control.desiredStep = static_cast<float>(setup.firstStep);
   control.emissionWait = kNever;
 
+  stageConcentrations({}, particles.fluids);
   stageParticles(std::move(positions), std::move(velocities), setup.fluids > 1 ? particles.fluids : std::vector<uint8_t>());
   staging_->add(slotOf(FluidArray::Control), sizeof control, bytesOf(std::vector{control}));
   staging_->add(slotOf(FluidArray::Sums), sizeof sums, bytesOf(std::vector{sums}));
@@ -177,6 +188,7 @@ void FluidImpl::resumeFlows(const FluidSnapshot& s) {
 void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   resumed_ = true;
   stageParticles(s.position, s.velocity, s.fluid);
+  stageConcentrations(s.concentration, s.fluid);
   staging_->add(slotOf(FluidArray::Control), s.control.data(), s.control.size() * 4);
   std::vector<uint32_t> sums = s.sums;
   if (setup.params.solidCount > 0) sums[offsetof(FluidSums, nearSolids) / 4] = static_cast<uint32_t>(firstNearSolids(s).size());
@@ -221,6 +233,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   forEachSaved([&](const ArrayRow& row, auto member) {
     const auto& array = s.*member;
     if (row.stride != sizeof array[0] || row.length(shape) == 0) return;  // positions and velocities; what this scene has no use for
+    if (row.id == FluidArray::Concentration) return;
     if (array.empty())
       staging_->clear(slotOf(row.id));
     else

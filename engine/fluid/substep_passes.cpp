@@ -55,6 +55,7 @@ void FluidImpl::declareBodies(Graph& graph) {
 void FluidImpl::declareForces(Graph& graph, bool first) {
   if (exists(FluidPass::Viscosity, setup)) declareViscosity(graph);
   if (first && exists(FluidPass::NoiseDamping, setup)) declareNoiseDamping(graph);
+  if (first && exists(FluidPass::Diffusion, setup)) declareDiffusion(graph);
   for (const FluidPassRow& row : fluidPassTable()) {
     if (!row.options.force) continue;
     if (row.extent == Extent::Gather)
@@ -99,6 +100,19 @@ void FluidImpl::declareNoiseDamping(Graph& graph) {
   declare(graph, FluidPass::VelocityNoise, Start::NoiseDamping, ChunkPush{});
   alias(SweepFrom, Smoothed);
   declare(graph, FluidPass::NoiseDamping, Start::NoiseDamping, ChunkPush{});
+}
+
+// An explicit step of as many stages as are recorded, of which the device takes those that it needs.
+void FluidImpl::declareDiffusion(Graph& graph) {
+  using enum FluidArray;
+  declare(graph, FluidPass::Diffusion, Start::Diffusion, ChunkPush{});
+  declare(graph, FluidPass::DiffusionPlan, Start::Diffusion);
+  declare(graph, FluidPass::DiffusionStart, Start::Diffusion);
+  for (uint32_t stage = 1; stage < setup.params.diffusionStages; ++stage) {
+    alias(ConcentrationFrom, stage % 2 == 1 ? NextConcentration : Concentration);
+    alias(ConcentrationTo, stage % 2 == 1 ? Concentration : NextConcentration);
+    declare(graph, FluidPass::DiffusionStep, Start::Diffusion, ChunkPush{0, 0, stage});
+  }
 }
 
 }  // namespace rill

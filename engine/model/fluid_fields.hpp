@@ -87,7 +87,12 @@ struct Table<FluidMaterial> {
                  .range = between(0, 1),
                  .help = "part of the light that 10 cm of the fluid let through, linear [red, green, blue]; without it, that of the look",
                  .parts = "[red, green, blue]"},
-            &FluidMaterial::color}};
+            &FluidMaterial::color},
+      Field{Info{.key = "diffusion",
+                 .unit = "m^2/s",
+                 .range = atLeast(0),
+                 .help = "diffusivity of the fluid in the others, above 0 in at most four fluids; its color follows"},
+            &FluidMaterial::diffusion}};
 };
 
 template <>

@@ -24,6 +24,17 @@ CheckResult knownFluid(const Scene& scene, const std::string& name, const std::s
   return knownName(name, names, "fluid", "a fluid", key);
 }
 
+CheckResult fewDiffuse(const std::vector<FluidMaterial>& fluids) {
+  size_t diffusing = 0;
+  for (size_t i = 0; i < fluids.size(); ++i) {
+    if (!(fluids[i].diffusion > 0) || ++diffusing <= kMaxDiffusing) continue;
+    return Fault{"found " + roundedNumber(fluids[i].diffusion) + " m^2/s in a fifth fluid; expected a diffusion above 0 in at most " +
+                     std::to_string(kMaxDiffusing),
+                 {memberPath(elementPath("fluids", i), "diffusion")}};
+  }
+  return {};
+}
+
 }  // namespace
 
 CheckResult checkRules(const FluidSettings& fluid) {
@@ -34,6 +45,7 @@ CheckResult checkRules(const FluidSettings& fluid) {
 CheckResult checkRules(const std::vector<FluidMaterial>& fluids) { return uniqueNames(fluids, "fluids", true); }
 
 CheckResult checkFluids(const Scene& scene) {
+  if (CheckResult fault = fewDiffuse(scene.fluids)) return fault;
   for (size_t i = 0; scene.fluid.spacing > 0 && i < scene.fluids.size(); ++i) {
     const double density = scene.fluids[i].density.value_or(scene.fluid.density);
     const std::string path = memberPath(elementPath("fluids", i), "density");

@@ -12,7 +12,8 @@ std::vector<ResolvedFluid> resolvedFluids(const Scene& scene) {
     fluids.push_back({.name = material.name,
                       .density = material.density.value_or(common.density),
                       .viscosity = material.viscosity.value_or(common.viscosity),
-                      .color = material.color});
+                      .color = material.color,
+                      .diffusion = material.diffusion});
   return fluids;
 }
 
@@ -20,6 +21,13 @@ size_t fluidIndex(const Scene& scene, const std::string& name) {
   if (name.empty()) return 0;
   const auto found = std::ranges::find(scene.fluids, name, &FluidMaterial::name);
   return found == scene.fluids.end() ? kMaxFluids : static_cast<size_t>(found - scene.fluids.begin());
+}
+
+std::vector<size_t> diffusingFluids(const Scene& scene) {
+  std::vector<size_t> all;
+  for (size_t k = 0; scene.fluids.size() > 1 && k < scene.fluids.size() && all.size() < kMaxDiffusing; ++k)
+    if (scene.fluids[k].diffusion > 0) all.push_back(k);
+  return all;
 }
 
 }  // namespace rill

@@ -29,6 +29,8 @@ ReadoutTickets readout(Graph& graph, const FluidState& state) {
   tickets.position = graph.readback(state.position);
   tickets.velocity = graph.readback(state.velocity);
   tickets.id = graph.readback(state.id);
+  tickets.mixes = state.concentration != BufferRef{};
+  if (tickets.mixes) tickets.concentration = graph.readback(state.concentration);
   return tickets;
 }
 
@@ -39,6 +41,7 @@ Readout collect(const Graph& graph, const ReadoutTickets& tickets) {
   const auto positions = records<Float4>(graph.data(tickets.position), count);
   const auto velocities = records<Float4>(graph.data(tickets.velocity), count);
   result.ids = records<uint32_t>(graph.data(tickets.id), count);
+  if (tickets.mixes) result.concentrations = records<Float4>(graph.data(tickets.concentration), count);
   result.positions.reserve(count);
   result.velocities.reserve(count);
   result.relativeDensities.reserve(count);
@@ -62,6 +65,7 @@ Readout activeOnly(const Readout& all) {
     active.relativeDensities.push_back(all.relativeDensities[i]);
     active.ids.push_back(all.ids[i]);
     active.fluids.push_back(all.fluids[i]);
+    if (!all.concentrations.empty()) active.concentrations.push_back(all.concentrations[i]);
   }
   return active;
 }

@@ -14,12 +14,14 @@ struct Readout {
   std::vector<Float3> velocities;        ///< m/s
   std::vector<float> relativeDensities;  ///< density over rest density
   std::vector<uint32_t> ids;
-  std::vector<uint8_t> fluids;  ///< index among resolvedFluids()
+  std::vector<uint8_t> fluids;         ///< index among resolvedFluids()
+  std::vector<Float4> concentrations;  ///< as FluidState::concentration; empty: nothing diffuses
 };
 
 /// Read-backs of a Readout.
 struct ReadoutTickets {
-  Ticket position, velocity, id, particles;
+  Ticket position, velocity, id, concentration, particles;
+  bool mixes = false;  ///< there are concentrations
   uint32_t capacity = 0;
 };
 

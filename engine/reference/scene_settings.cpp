@@ -12,7 +12,8 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.smoothingRatio = scene.fluid.smoothing_ratio;
   s.density = densestFluid(scene);
   if (!scene.fluids.empty())
-    for (const ResolvedFluid& fluid : resolvedFluids(scene)) s.fluids.push_back({.density = fluid.density, .viscosity = fluid.viscosity});
+    for (const ResolvedFluid& fluid : resolvedFluids(scene))
+      s.fluids.push_back({.density = fluid.density, .viscosity = fluid.viscosity, .diffusion = fluid.diffusion});
   s.origin = vec(origin);
   for (int a = 0; a < 3; ++a) {
     s.gravity[a] = scene.gravity[a];
@@ -40,6 +41,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.tensilePower = scene.fluid.tensile_power;
   s.viscosity = largestViscosity(scene);
   s.viscositySteps = static_cast<int>(setup.params.viscositySteps);
+  s.diffusionStages = static_cast<int>(setup.params.diffusionStages);
   s.noSlipWalls = scene.domain && !scene.domain->slip;
   s.meltingTime = meltingTime(scene);
   s.viscosityAtRest = setup.artificialViscosity;

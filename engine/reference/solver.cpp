@@ -74,6 +74,12 @@ void ReferenceSolver::begin(double dt) {
     for (int a = 0; a < 3 && !placed; ++a) state.position[i][a] = std::isfinite(settings.lo[a]) ? settings.lo[a] : 0;
     deactivate(i);
   }
+  if (state.concentration.empty())
+    for (size_t k = 0; k < settings.fluids.size(); ++k) {
+      if (!(settings.fluids[k].diffusion > 0)) continue;
+      std::vector<double>& share = state.concentration.emplace_back();
+      for (const uint8_t fluid : state.fluid) share.push_back(fluid == k ? 1 : 0);
+    }
   if (initialPressureStep_ > 0) return predict(initialPressureStep_, dt);
   state.predicted = state.position;
   step_ = 0;
@@ -134,6 +140,10 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     if (settings.viscosityAtRest > 0) {
       dampNoise(blockTime_);
       done(Stage::NoiseDamping);
+    }
+    if (!state.concentration.empty()) {
+      diffuse(blockTime_);
+      done(Stage::Diffusion);
     }
     blockTime_ = 0;
   }

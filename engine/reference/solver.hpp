@@ -14,7 +14,7 @@
 //   correction    x*_i += m_i^-1 (sum_j a_ij (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i), then projected out of solids
 //                 and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
-//   viscosity     an implicit step, and noise damping of slow fluid;  vorticity   confinement;  drag   linear
+//   viscosity     an implicit step, and noise damping of slow fluid;  diffusion   of concentrations;  vorticity   confinement;  drag linear
 //   predict       w_i *= (dt_next/dt)^2,
 //                 x*_i = x_i + dt_next (v_i + g dt_next) + m_i^-1 (sum_j a_ij (w_i + w_j) G_ij + w_i grad B_i), then projected out of
 //                 solids and walls
@@ -61,6 +61,7 @@ inline constexpr double kMinDenominator = 1e-6;
 struct ReferenceFluid {
   double density = 1000;  ///< kg/m^3, > 0
   double viscosity = 0;   ///< Pa s, >= 0
+  double diffusion = 0;   ///< m^2/s, >= 0, in the others
 };
 
 /// All coefficients, explicitly; there is no "auto".
@@ -101,6 +102,7 @@ struct ReferenceSettings {
   std::vector<ReferenceFluid> fluids;                           ///< empty: one
   double viscosity = 0;                                         ///< mu, Pa s; the largest of several fluids
   int viscositySteps = 0;                                       ///< of its solve, at most, as the shaders take them; 0: solved exactly
+  int diffusionStages = 0;                                      ///< of a step, at most, as the shaders take them; 0: very short steps
   bool noSlipWalls = false;                                     ///< viscous fluid sticks to the walls
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
   double drag = 0;                                              ///< 1/s
@@ -115,7 +117,7 @@ struct ReferenceSettings {
 };
 
 /// What a substep does in turn. Pressure is Density, Multipliers and Correction, for every iteration.
-enum class Stage { Density, Multipliers, Correction, Velocities, Viscosity, NoiseDamping, Vorticity, Drag, Prediction };
+enum class Stage { Density, Multipliers, Correction, Velocities, Viscosity, NoiseDamping, Diffusion, Vorticity, Drag, Prediction };
 
 class ReferenceSolver {
  public:
@@ -137,6 +139,8 @@ class ReferenceSolver {
     std::vector<double> warm;           ///< w, m^2, <= 0
     std::vector<uint32_t> id;           ///< unique
     std::vector<uint8_t> fluid;         ///< index into settings.fluids
+    /// Of each fluid that diffuses, its share in each particle. begin() makes it where it is empty.
+    std::vector<std::vector<double>> concentration;
   };
 
   /// Particles without warm start (w = 0), with ids 0, 1, ... and x* = x. Empty `velocities`: all 0.
@@ -161,6 +165,7 @@ class ReferenceSolver {
   void velocities(double dt);               ///< v, x; adds dt to time()
   void viscosity(double dt);                ///< v: v' = v + dt f(v'), f the force of sph/viscosity.hpp; then noSlip()
   void dampNoise(double dt);  ///< v: v -= c L(L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest, at most kMaxNoiseDamping
+  void diffuse(double dt);    ///< state.concentration: dc/dt of sph/diffusion.hpp
   /// Vorticity confinement (Macklin and Mueller 2013, eq. 15 and 16, with a dimensionless coefficient):
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
   ///   N = eta / (|eta| + 0.001 |omega| / h).
@@ -227,6 +232,9 @@ class ReferenceSolver {
   void deactivate(size_t i);
   void addSpeed(double speed);
   void updateRestFactor();
+  /// sum_j diffusionWeight (c_j - c_i)
+  std::vector<double> exchange(const std::vector<double>& c) const;
+  double diffusionRow() const;                                                     ///< the largest sum over j of diffusionWeight
   double pairViscosity(size_t i, size_t j) const;                                  ///< over settings.viscosity: the harmonic mean
   double densityScale() const;                                                     ///< factor on the fluid's part of the density
   std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)

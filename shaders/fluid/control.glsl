@@ -61,12 +61,14 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
   sums.errorHigh = 0u;
   sums.errorMax = 0u;
   sums.viscosityBound = 0u;
+  sums.diffusionRow = 0u;
 
   if (first) control.phase = control.nextPhase;
   if (first && control.phase != kPhaseAdvancing) {
     again = false;
     control.step = 0.0;
     control.noiseDamping = 0.0;
+    control.diffusion = 0.0;
     control.artificialPressure = 0.0;
     if (control.phase == kPhaseSettling) settle(error, errorMax);
     else iteratePressure();
@@ -81,6 +83,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     float solidSpeed = max(control.solidSpeed, control.bodySpeed);
     setGains();
     planNoiseDamping(blockStart);
+    planDiffusion(blockStart);
     control.artificialPressure = min(params.tensileRate * control.step * control.step, params.tensileLimit);
     control.warmStep = control.step;
     control.timeLeft -= control.step;

@@ -13,6 +13,7 @@ uint startsOn(uint parity) {
          uint(parity == 0u) << kStartCorrect |
          uint(parity == 1u) << kStartCorrectOdd |
          uint(parity < kNoSubstep && control.noiseDamping > 0.0) << kStartNoiseDamping |
+         uint(parity < kNoSubstep && control.diffusion > 0.0) << kStartDiffusion |
          uint(control.sleep == kFallingAsleep && parity == kNoSubstep) << kStartFallAsleep |
          uint(rebuilds) << kStartRebuild;
 }

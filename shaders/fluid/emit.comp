@@ -20,6 +20,7 @@ layout(std430, binding = 10) readonly buffer SolidBlock { SolidRecord solids[]; 
 READ_UINT(11, meshWord)
 layout(std430, binding = 12) writeonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
 layout(std430, binding = 13) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
+layout(std430, binding = 14) writeonly buffer ConcentrationBlock { vec4 concentration[]; };
 #define MESH_WORDS
 #include "shared/shape.glsl"
 #include "fluid/mouth_frame.glsl"
@@ -74,5 +75,6 @@ void main() {
   prediction[i] = vec4(blocked ? x : insideWalls(predicted(x, v, vec3(0.0))), 0.0);
   if (WARM) warm[i] = 0.0;
   if (WARM) warmAcceleration[i] = vec4(0.0);
+  if (DIFFUSES) concentration[i] = unmixed(emitters[e].fluid);
   id[i] = flow.nextId - flow.candidates + born;
 }

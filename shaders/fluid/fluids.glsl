@@ -47,6 +47,11 @@ float viscosityOf(uint fluid) {
   return fluid < 4u ? first[fluid] : others[fluid & 3u];
 }
 
+// Concentrations in a particle of one fluid that has not mixed, of those that diffuse.
+vec4 unmixed(uint fluid) {
+  return vec4(equal(uvec4(fluid), uvec4(params.diffusing0, params.diffusing1, params.diffusing2, params.diffusing3)));
+}
+
 // Of a pair of particles: the harmonic mean, by which the shear stress is continuous.
 float pairViscosity(uint a, uint b) {
   if (!FLUIDS) return 1.0;

@@ -53,4 +53,15 @@ void planNoiseDamping(bool blockStart) {
   control.noiseDamping = min(params.noiseDampingRate * control.restFraction * control.blockTime, kMaxNoiseDamping);
   control.blockTime = 0.0;
 }
+
+// So does diffusion.
+void planDiffusion(bool blockStart) {
+  control.diffusion = 0.0;
+  if (params.maxDiffusionRate == 0.0) return;
+  control.diffusionTime += control.step;
+  if (!blockStart) return;
+  control.diffusion = control.diffusionTime;
+  control.diffusionTime = 0.0;
+  control.executedDiffusions += 1u;
+}
 #endif

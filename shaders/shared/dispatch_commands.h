@@ -16,6 +16,7 @@ RILL_CONST uint kStartNoiseDamping = 6u;   // the end of the first substep of a 
 RILL_CONST uint kStartRebuild = 7u;        // the neighbor list is due
 RILL_CONST uint kStartFigures = 8u;        // figures were asked for
 RILL_CONST uint kStartFallAsleep = 9u;     // the fluid falls asleep at the begin of an advance
+RILL_CONST uint kStartDiffusion = 10u;     // the end of the first substep of a block, if fluids diffuse
 RILL_CONST uint kNoSubstep = 2u;           // in place of a parity
 RILL_CONST uint kKeepCommands = 3u;        // likewise: the commands stay as they are
 RILL_CONST uint kNoBegin = 4u;             // likewise, where an advance continues: nothing is to be predicted

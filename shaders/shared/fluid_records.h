@@ -122,7 +122,13 @@ struct FluidParams {
   // Of several fluids: 1 over a particle's mass, and viscosity, over those of the densest and of the most viscous one.
   float inverseMass0, inverseMass1, inverseMass2, inverseMass3, inverseMass4, inverseMass5, inverseMass6, inverseMass7;
   float viscosity0, viscosity1, viscosity2, viscosity3, viscosity4, viscosity5, viscosity6, viscosity7;
+  // Of the fluids that diffuse: their indices (kNoFluid: none), rates over the sum of engine/sph/diffusion.hpp, 1/s, and the largest rate.
+  uint diffusing0, diffusing1, diffusing2, diffusing3;
+  float diffusionRate0, diffusionRate1, diffusionRate2, diffusionRate3;
+  float maxDiffusionRate;
+  uint diffusionStages;   // of a step of diffusion, at most: 1 or even
 };
+RILL_CONST uint kNoFluid = 0xFFFFFFFFu;
 
 // Phases of the solver; the two before time begins need no step in time.
 RILL_CONST uint kPhaseAdvancing = 0u;
@@ -191,6 +197,9 @@ struct FluidControl {
   uint wakesAll;       // 1: gravity has changed since
   uint regionsDue;     // 1: they are to be looked at before the next substep
   uint acts;           // 1: an emitter, a drain or something else known beforehand acts
+  float diffusion;     // s that diffusion after this substep is for; 0: its passes do not run
+  float diffusionTime; // s since it ran last
+  uint executedDiffusions;  // since the start, as executedSubsteps
 };
 
 // Sums of the passes of one substep; integers, so that their order does not matter.
@@ -216,6 +225,10 @@ struct FluidSums {
   float viscosityCenter, viscosityHalfWidth, viscosityDecay;
   uint viscosityBoundHits;   // solves since the start that needed more than FluidParams::viscositySteps
   uint motionLow, motionHigh;  // 64-bit sum of squared speeds over gravity times spacing, in kMotionUnit
+  uint diffusionRow;         // bits of the largest sum of a particle's weights in the last step of diffusion
+  uint diffusionStages;      // of it
+  float diffusionStep;       // s, the time that each is for
+  uint diffusionBoundHits;   // steps since the start that needed more than FluidParams::diffusionStages
 };
 RILL_CONST float kMotionUnit = 1.0f / 67108864.0f;
 RILL_CONST float kMaxMotion = 32.0f;  // what one particle adds, at most

@@ -178,6 +178,7 @@ std::string firstDifference(const FluidSnapshot& a, const FluidSnapshot& b) {
   compare("position", a.position, b.position);
   compare("velocity", a.velocity, b.velocity);
   compare("fluid", a.fluid, b.fluid);
+  compare("concentration", a.concentration, b.concentration);
   compare("warmAcceleration", a.warmAcceleration, b.warmAcceleration);
   compare("warmStart", a.warmStart, b.warmStart);
   compare("rest", a.rest, b.rest);
@@ -304,12 +305,17 @@ Snapshot FluidTest::Run::read(const FluidStep& step) {
   result.x.resize(raw.ids.size());
   result.v.resize(raw.ids.size());
   result.density.resize(raw.ids.size());
+  result.concentration.resize(raw.concentrations.size());
   std::vector<uint32_t> ids(raw.ids);
   std::sort(ids.begin(), ids.end());
   for (size_t i = 0; i < raw.ids.size(); ++i) {
     const auto place = static_cast<size_t>(std::lower_bound(ids.begin(), ids.end(), raw.ids[i]) - ids.begin());
     result.x[place] = wide(raw.positions[i]);
     result.v[place] = wide(raw.velocities[i]);
+    if (!raw.concentrations.empty()) {
+      const Float4& c = raw.concentrations[i];
+      result.concentration[place] = {c.x, c.y, c.z, c.w};
+    }
     result.density[place] = step.stats ? raw.relativeDensities[i] : 0.0;
   }
   return result;

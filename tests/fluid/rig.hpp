@@ -2,6 +2,7 @@
 // The solver on the device beside the reference: both made from one scene, particles compared by id, in units of the spacing.
 #include <functional>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,7 +60,8 @@ std::vector<glm::dvec3> cloud(size_t count, double edge, unsigned seed, glm::dve
 /// Particles in the order of their ids.
 struct Snapshot {
   std::vector<glm::dvec3> x, v;
-  std::vector<double> density;  ///< over the rest density; 0 unless figures were asked for
+  std::vector<double> density;                 ///< over the rest density; 0 unless figures were asked for
+  std::vector<glm::dvec4> concentration = {};  ///< empty unless fluids diffuse
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
   bool finite() const;
   glm::dvec3 velocitySum() const;

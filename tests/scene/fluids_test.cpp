@@ -44,6 +44,14 @@ TEST(FluidsScene, WithoutFluidsHasOneOfTheMaterialOfFluid) {
   EXPECT_EQ(fluids[0].density, 998);
 }
 
+TEST(FluidsScene, KnowsWhichFluidsDiffuse) {
+  const Scene s =
+      scene(fluidScene(R"("fluids": [{"name": "water"}, {"name": "milk", "diffusion": 1e-5}, {"name": "ink", "diffusion": 1}])"));
+  EXPECT_EQ(diffusingFluids(s), (std::vector<size_t>{1, 2}));
+  EXPECT_EQ(resolvedFluids(s)[1].diffusion, 1e-5);
+  EXPECT_TRUE(diffusingFluids(scene(fluidScene(R"("fluids": [{"name": "milk", "diffusion": 1e-5}])"))).empty()) << "there is no other";
+}
+
 TEST(FluidsScene, EmittersAndInflowHaveAFluid) {
   const Scene s = scene(fluidScene(kTwoFluids + R"(, "emitters": [{"disc": {}, "flow": 1, "fluid": "oil"}, {"disc": {}, "flow": 1}],
     "domain": {"inflow": {"level": 0.5, "speed": 1, "fluid": "oil"}})"));
@@ -67,6 +75,10 @@ TEST(FluidsScene, RejectsInvalidMaterialsNamingTheKey) {
       {withOil(R"("density": 1e-36)"),
        "fluids[0].density: the mass of a particle, density x spacing^3, is 1e-39 kg; expected a mass that fits a 32-bit float"},
       {withOil(R"("viscosity": -0.1)"), "fluids[0].viscosity: -0.1 is out of range; expected a number of at least 0 (Pa s)"},
+      {withOil(R"("diffusion": -1e-9)"), "fluids[0].diffusion: -1e-09 is out of range; expected a number of at least 0 (m^2/s)"},
+      {fluidScene(R"("fluids": [{"name": "1", "diffusion": 1}, {"name": "2"}, {"name": "3", "diffusion": 1}, {"name": "4", "diffusion": 1},
+         {"name": "5", "diffusion": 1}, {"name": "6", "diffusion": 0.5}])"),
+       "fluids[5].diffusion: found 0.5 m^2/s in a fifth fluid; expected a diffusion above 0 in at most 4"},
       {withOil(R"("color": [0, 1.5, 0])"), "fluids[0].color[1]: 1.5 is out of range; expected a number from 0 to 1"},
       {withOil(R"("color": [0, 1, -0.5])"), "fluids[0].color[2]: -0.5 is out of range; expected a number from 0 to 1"},
       {withOil(R"("color": [0, 1])"), "fluids[0].color: found an array of length 2, expected 3 numbers [red, green, blue]"},

@@ -123,10 +123,11 @@ struct FluidStep {
 
 /// The particles of a frame, as buffers of its graph. Read them with any Use. Buffers of particles have an unused entry after `capacity`.
 struct FluidState {
-  BufferRef position = {};  ///< vec4 per particle: xyz in m relative to `origin`; w: index of its fluid among resolvedFluids()
-  BufferRef velocity = {};  ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
-  BufferRef id = {};        ///< uint per particle, which it keeps: unique, below 0x7F000000; at the start its index in the ParticleSet
-  BufferRef control = {};   ///< FluidControl (shaders/shared/fluid_records.h)
+  BufferRef position = {};       ///< vec4 per particle: xyz in m relative to `origin`; w: index of its fluid among resolvedFluids()
+  BufferRef velocity = {};       ///< vec4 per particle: xyz in m/s; w: density over rest density with FluidStep::stats, else 1
+  BufferRef id = {};             ///< uint per particle, which it keeps: unique, below 0x7F000000; at the start its index in the ParticleSet
+  BufferRef concentration = {};  ///< vec4 per particle: share of each of diffusingFluids() in it; null if none diffuses
+  BufferRef control = {};        ///< FluidControl (shaders/shared/fluid_records.h)
   /// Its first uint is the number of particles: they are the first entries of the arrays. Null: renderers take `capacity`.
   BufferRef countBuffer = {};
   BufferRef solids = {};  ///< SolidRecord (solid_records.h) per solid, at the present time; null if no solid is driven, a body or a mesh

@@ -89,6 +89,7 @@ struct FluidMaterial {
   std::optional<double> density = {};    ///< rest density, kg/m^3, > 0; empty: that of FluidSettings
   std::optional<double> viscosity = {};  ///< dynamic viscosity, Pa s, >= 0; empty: that of FluidSettings
   std::optional<Double3> color = {};     ///< of the light that 10 cm of it let through, linear RGB, 0 .. 1; empty: that of the look
+  double diffusion = 0;                  ///< diffusivity of it in the other fluids, m^2/s, >= 0; above 0 in at most kMaxDiffusing fluids
 };
 
 /// Accuracy and cost of the solver. Empty optionals mean "auto".
@@ -256,12 +257,16 @@ struct Scene {
 /// The largest number of fluids in a scene.
 inline constexpr size_t kMaxFluids = 8;
 
+/// The largest number of them that diffuse.
+inline constexpr size_t kMaxDiffusing = 4;
+
 /// A fluid of a scene, with nothing left to default.
 struct ResolvedFluid {
   std::string name = "fluid";
   double density = 1000;              ///< kg/m^3
   double viscosity = 0;               ///< Pa s
   std::optional<Double3> color = {};  ///< as FluidMaterial::color
+  double diffusion = 0;               ///< m^2/s
 };
 
 /// The fluids of a scene, at least one: its fluids, or one named "fluid" of the material of `fluid`.
@@ -269,6 +274,10 @@ RILL_API std::vector<ResolvedFluid> resolvedFluids(const Scene& scene);
 
 /// The index of a fluid by its name; 0 for an empty name. kMaxFluids: none has it.
 RILL_API size_t fluidIndex(const Scene& scene, const std::string& name);
+
+/// Indices of the fluids that diffuse, at most kMaxDiffusing: the first is that of the first component of FluidState::concentration, and so
+/// on. Empty in a scene with one fluid.
+RILL_API std::vector<size_t> diffusingFluids(const Scene& scene);
 
 /// The number of solids that are rigid bodies.
 inline size_t bodyCount(const Scene& scene) {

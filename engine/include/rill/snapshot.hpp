@@ -56,6 +56,7 @@ struct FluidSnapshot {
   // Warm start; empty without one.
   std::vector<Float4> warmAcceleration = {};  ///< m/s^2; w: last multiplier (m^2) while the initial pressure is solved for
   std::vector<float> warmStart = {};          ///< multipliers, m^2
+  std::vector<Float4> concentration = {};     ///< as FluidState::concentration; empty: nothing diffuses
   std::vector<uint32_t> id = {};
   std::vector<uint32_t> rest = {};          ///< zones (region_records.h) that the particles were sorted by; empty as `regions` is
   std::vector<NearSolids> nearSolids = {};  ///< by increasing particle
