@@ -53,7 +53,7 @@ Expected<std::vector<fs::path>> filesIn(const fs::path& folder, bool quiet) {
 /// Shows the particles of a file, relative to the first one to keep precision far from the origin.
 /// `warned`: says once where a file has no velocities; null: nothing needs them.
 Expected<void> show(offline::Player& player, const fs::path& file, double time_s, bool* warned) {
-  auto opened = PlyFile::open(file, player.scene().fluids.size());
+  auto opened = PlyFile::open(file, player.scene().fluids.size(), diffusingFluids(player.scene()));
   if (!opened) return Error{opened.error().kind, "--play: " + opened.error().message};
   auto particles = opened->read();
   if (!particles) return Error{particles.error().kind, "--play: " + particles.error().message};
@@ -70,7 +70,7 @@ Expected<void> show(offline::Player& player, const fs::path& file, double time_s
   positions.reserve(particles->positions.size());
   for (const Double3& p : particles->positions)
     positions.push_back({static_cast<float>(p.x - origin[0]), static_cast<float>(p.y - origin[1]), static_cast<float>(p.z - origin[2])});
-  return player.show(positions, origin, particles->velocities, time_s, particles->fluids);
+  return player.show(positions, origin, particles->velocities, time_s, particles->fluids, particles->concentrations);
 }
 
 }  // namespace

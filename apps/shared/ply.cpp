@@ -43,9 +43,10 @@ std::vector<std::byte> encodePly(const offline::Particles& particles, double tim
   header += "property uint id\n";
   const bool several = !particles.fluids.empty();
   if (several) header += "property uchar fluid\n";
+  for (size_t fluid : particles.diffusing) header += "property float concentration" + std::to_string(fluid) + "\n";
   header += "end_header\n";
 
-  const size_t stride = sizeof(Vertex) + (several ? 1 : 0);
+  const size_t stride = sizeof(Vertex) + (several ? 1 : 0) + particles.concentrations.size() * sizeof(float);
   std::vector<std::byte> bytes(header.size() + count * stride);
   std::memcpy(bytes.data(), header.data(), header.size());
   std::byte* next = bytes.data() + header.size();
@@ -54,6 +55,8 @@ std::vector<std::byte> encodePly(const offline::Particles& particles, double tim
     const Vertex vertex{{p.x, p.y, p.z}, {v.x, v.y, v.z}, particles.densities[i], particles.ids[i]};
     std::memcpy(next, &vertex, sizeof vertex);
     if (several) next[sizeof vertex] = static_cast<std::byte>(particles.fluids[i]);
+    for (size_t n = 0; n < particles.concentrations.size(); ++n)
+      std::memcpy(next + sizeof vertex + 1 + n * sizeof(float), &particles.concentrations[n][i], sizeof(float));
   }
   return bytes;
 }

@@ -77,6 +77,8 @@ std::vector<std::byte> encodeVtu(const offline::Particles& particles, double tim
   piece += "<PointData Scalars=\"density\" Vectors=\"velocity\">\n" + arrays.add("Float32", "velocity", 3, particles.velocities) +
            arrays.add("Float32", "density", 1, particles.densities) + arrays.add("UInt32", "id", 1, particles.ids);
   if (!particles.fluids.empty()) piece += arrays.add("UInt8", "fluid", 1, particles.fluids);
+  for (size_t n = 0; n < particles.concentrations.size(); ++n)
+    piece += arrays.add("Float32", ("concentration" + std::to_string(particles.diffusing[n])).c_str(), 1, particles.concentrations[n]);
   piece += "</PointData>\n";
   piece += "<Points>\n" + arrays.add("Float32", "Points", 3, particles.positions) + "</Points>\n";
   piece += "<Cells>\n" + arrays.add("Int64", "connectivity", 1, points) + arrays.add("Int64", "offsets", 1, counting(count, 1)) +

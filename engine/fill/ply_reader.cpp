@@ -1,6 +1,7 @@
 #include "fill/ply_reader.hpp"
 
-#include <array>
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <span>
 #include <string>
@@ -9,15 +10,22 @@
 #include "core/numbers.hpp"
 #include "core/words.hpp"
 #include "fill/ply_format.hpp"
+#include "rill/scene.hpp"
 
 namespace rill {
 
+constexpr size_t kFirstConcentration = 7;
+
 struct PlyFile::Header : ply::Header {
-  std::array<int, 7> column{};  ///< index of x y z vx vy vz fluid among the properties of a vertex; -1: missing, or not read
+  /// Indices of x y z vx vy vz fluid, and of concentrations, among the properties of a vertex; -1: missing, or not read.
+  std::vector<int> column = {};
   size_t fluids = 0;
 
   bool hasVelocity() const { return column[3] >= 0 && column[4] >= 0 && column[5] >= 0; }
   bool hasFluid() const { return column[6] >= 0; }
+  bool hasConcentrations() const {
+    return column.size() > kFirstConcentration && std::ranges::none_of(column, [](int k) { return k < 0; });
+  }
 };
 
 PlyFile::PlyFile(std::unique_ptr<Header> header) : header_(std::move(header)) {}
@@ -27,16 +35,20 @@ PlyFile::~PlyFile() = default;
 
 uint64_t PlyFile::count() const { return header_->elements.back().count; }
 
-Expected<PlyFile> PlyFile::open(const std::filesystem::path& file, size_t fluids) {
-  constexpr std::array<std::string_view, 7> kNames{"x", "y", "z", "vx", "vy", "vz", "fluid"};
+Expected<PlyFile> PlyFile::open(const std::filesystem::path& file, size_t fluids, std::span<const size_t> diffusing) {
+  assert(diffusing.size() <= kMaxDiffusing && (diffusing.empty() || fluids > 0));
+  std::vector<std::string> shares;
+  for (const size_t fluid : diffusing) shares.push_back("concentration" + std::to_string(fluid));
+  std::vector<std::string_view> names{"x", "y", "z", "vx", "vy", "vz", "fluid"};
+  names.insert(names.end(), shares.begin(), shares.end());
   auto read = ply::readHeader(file, "vertex");
   if (!read) return read.error();
   auto header = std::make_unique<Header>(Header{std::move(*read), {}, fluids});
   if (header->elements.empty() || header->elements.back().name != "vertex")
     return header->badInput("the header has no vertex element; expected one with x, y and z");
-  header->column.back() = -1;
-  const size_t columns = fluids > 0 ? kNames.size() : kNames.size() - 1;
-  if (auto ok = header->findColumns(header->elements.back(), std::span(kNames).first(columns), std::span(header->column).first(columns));
+  header->column.resize(names.size(), -1);
+  const size_t columns = fluids > 0 ? names.size() : kFirstConcentration - 1;
+  if (auto ok = header->findColumns(header->elements.back(), std::span(names).first(columns), std::span(header->column).first(columns));
       !ok)
     return ok.error();
   if (auto ok = header->checkCounts(); !ok) return ok.error();
@@ -55,6 +67,7 @@ Expected<PlyParticles> PlyFile::read() const {
     if (vertex) out.positions.reserve(element.count);
     if (vertex && header.hasVelocity()) out.velocities.reserve(element.count);
     if (vertex && header.hasFluid()) out.fluids.reserve(element.count);
+    if (vertex && header.hasConcentrations()) out.concentrations.reserve(element.count);
     for (uint64_t i = 0; i < element.count; ++i) {
       if (auto ok = body.read(element, i, row); !ok) return ok.error();
       if (!vertex) continue;
@@ -68,6 +81,16 @@ Expected<PlyParticles> PlyFile::read() const {
       }
       out.positions.push_back({at(0), at(1), at(2)});
       if (header.hasVelocity()) out.velocities.push_back({static_cast<float>(at(3)), static_cast<float>(at(4)), static_cast<float>(at(5))});
+      if (header.hasConcentrations()) {
+        Float4& all = out.concentrations.emplace_back();
+        constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
+        for (size_t k = kFirstConcentration; k < header.column.size(); ++k) {
+          if (!fitsFloat(at(k)))
+            return header.badInput("vertex " + grouped(i) + ": a concentration is " + shortestNumber(at(k)) +
+                                   "; expected a finite number that a 32-bit float can hold");
+          all.*kComponents[k - kFirstConcentration] = static_cast<float>(at(k));
+        }
+      }
       if (!header.hasFluid()) continue;
       const double fluid = at(6);
       if (!(fluid >= 0 && fluid < static_cast<double>(header.fluids)) || fluid != std::floor(fluid)) {

@@ -46,7 +46,7 @@ class Player::Impl {
   }
 
   Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities, double time_s,
-                      const std::vector<uint8_t>& fluids) {
+                      const std::vector<uint8_t>& fluids, const std::vector<Float4>& concentrations) {
     if (positions.size() > kMaxParticles)
       return Error{ErrorKind::TooLarge, std::to_string(positions.size()) + " particles; expected at most " + std::to_string(kMaxParticles)};
     if (!velocities.empty() && velocities.size() != positions.size())
@@ -55,6 +55,9 @@ class Player::Impl {
     if (!fluids.empty() && fluids.size() != positions.size())
       return Error{ErrorKind::BadInput, "found " + std::to_string(fluids.size()) + " fluids for " + std::to_string(positions.size()) +
                                             " positions, expected equal numbers"};
+    if (!concentrations.empty() && concentrations.size() != positions.size())
+      return Error{ErrorKind::BadInput, "found concentrations of " + std::to_string(concentrations.size()) + " particles for " +
+                                            std::to_string(positions.size()) + " positions, expected equal numbers"};
     const size_t known = std::max<size_t>(scene_.fluids.size(), 1);
     if (const auto wrong = std::ranges::find_if(fluids, [&](uint8_t fluid) { return fluid >= known; }); wrong != fluids.end())
       return Error{ErrorKind::BadInput, "found fluid " + std::to_string(*wrong) + " of a particle, expected an index below " +
@@ -63,14 +66,14 @@ class Player::Impl {
     time_s_ = time_s;
     origin_ = origin;
     pictures_.contentChanged();
+    mixes_ = !concentrations.empty();
     if (count_ == 0) return {};
+    if (mixes_) {
+      if (auto room = makeRoom(concentration_); !room) return room;
+      std::memcpy(concentration_.mapped(), concentrations.data(), concentrations.size() * sizeof(Float4));
+    }
     for (const auto& [buffer, from] : {std::pair{&position_, &positions}, std::pair{&velocity_, &velocities}}) {
-      const uint64_t bytes = uint64_t{count_} * sizeof(Float4);
-      if (buffer->size() < bytes) {
-        auto made = createBuffer(context_->device(), "played particles", bytes, MemoryKind::Upload);
-        if (!made) return made.error();
-        *buffer = std::move(*made);
-      }
+      if (auto room = makeRoom(*buffer); !room) return room;
       std::byte* to = buffer->mapped();
       for (uint32_t i = 0; i < count_; ++i, to += sizeof(Float4)) {
         const Float3 v = from->empty() ? Float3{} : (*from)[i];
@@ -104,6 +107,16 @@ class Player::Impl {
   const Scene& scene() const { return scene_; }
 
  private:
+  /// For a vector of each particle.
+  Expected<void> makeRoom(Buffer& buffer) {
+    const uint64_t bytes = uint64_t{count_} * sizeof(Float4);
+    if (buffer.size() >= bytes) return {};
+    auto made = createBuffer(context_->device(), "played particles", bytes, MemoryKind::Upload);
+    if (!made) return made.error();
+    buffer = std::move(*made);
+    return {};
+  }
+
   template <class T>
   Expected<void> draw(std::string_view view, std::vector<T>& rgba, uint32_t width, uint32_t height, PixelKind kind) {
     if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
@@ -121,6 +134,7 @@ class Player::Impl {
     if (count_ > 0) {
       fluid.position = staged(graph, "played positions", position_);
       fluid.velocity = staged(graph, "played velocities", velocity_);
+      if (mixes_) fluid.concentration = staged(graph, "played concentrations", concentration_);
     }
     return fluid;
   }
@@ -147,7 +161,8 @@ class Player::Impl {
   Scene scene_;
   ParticleSet start_;  ///< framed if the scene has no camera
   std::optional<Context> context_;
-  Buffer position_, velocity_;
+  Buffer position_, velocity_, concentration_;
+  bool mixes_ = false;  ///< there are concentrations
   uint32_t count_ = 0;
   Double3 origin_ = {0, 0, 0};
   double time_s_ = 0;
@@ -167,8 +182,8 @@ Expected<Player> Player::open(Scene scene, const Options& options) try {
 } catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }
 
 Expected<void> Player::show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities,
-                            double time_s, const std::vector<uint8_t>& fluids) {
-  return impl_->show(positions, origin, velocities, time_s, fluids);
+                            double time_s, const std::vector<uint8_t>& fluids, const std::vector<Float4>& concentrations) {
+  return impl_->show(positions, origin, velocities, time_s, fluids, concentrations);
 }
 
 Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t height) try {

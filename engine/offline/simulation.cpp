@@ -137,6 +137,12 @@ class Simulation::Impl {
       particles.ids[k] = readout_.ids[i];
       if (!particles.fluids.empty()) particles.fluids[k] = static_cast<uint8_t>(fluid);
     }
+    if (!readout_.concentrations.empty()) particles.diffusing = diffusingFluids(scene_);
+    for (size_t n = 0; n < particles.diffusing.size(); ++n) {
+      constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
+      std::vector<float>& all = particles.concentrations.emplace_back(count);
+      for (size_t k = 0; k < count; ++k) all[k] = readout_.concentrations[visit.empty() ? k : visit[k]].*kComponents[n];
+    }
     return particles;
   }
 
@@ -193,7 +199,7 @@ class Simulation::Impl {
     stats.listBuilds = advanced_.listBuilds;
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
-    stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies());
+    stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies(), readout_.concentrations);
     stats.probes = probes_.read(*fluid_, reader, measured_->time_s, advanced_s_ - advanced_.timeDropped_s);
     if (white_) stats.whitewater = whiteStats_;
     stats.pictureBoundHits = pictureBoundHits_;

@@ -34,7 +34,7 @@ std::vector<uint32_t> orderById(std::span<const uint32_t> ids) {
 }
 
 uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint32_t> ids,
-                   std::span<const BodyMotion> bodies) {
+                   std::span<const BodyMotion> bodies, std::span<const Float4> concentrations) {
   assert(positions.size() == ids.size() && velocities.size() == ids.size());
   Fnv1a hash;
   for (const uint32_t i : orderById(ids)) {
@@ -46,6 +46,11 @@ uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> ve
     add(hash, Double3{body.rotation.x, body.rotation.y, body.rotation.z});
     hash.add(std::bit_cast<uint64_t>(body.rotation.w));
   }
+  if (concentrations.empty()) return hash.value();
+  assert(concentrations.size() == ids.size());
+  for (const uint32_t i : orderById(ids))
+    for (float number : {concentrations[i].x, concentrations[i].y, concentrations[i].z, concentrations[i].w})
+      hash.add(std::bit_cast<uint32_t>(number));
   return hash.value();
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rill/fluid.hpp"
+#include "rill/vectors.hpp"
 
 namespace rill::offline {
 
@@ -11,8 +12,8 @@ namespace rill::offline {
 std::vector<uint32_t> orderById(std::span<const uint32_t> ids);
 
 /// 64-bit FNV-1a over the bits of position and velocity of each particle in id order, to compare states. `positions`: m, relative to the
-/// scene's origin, as on the device. Then over those of the motion of each body.
+/// scene's origin, as on the device. Then over those of the motion of each body, and those of the concentrations in each particle.
 uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint32_t> ids,
-                   std::span<const BodyMotion> bodies = {});
+                   std::span<const BodyMotion> bodies = {}, std::span<const Float4> concentrations = {});
 
 }  // namespace rill::offline

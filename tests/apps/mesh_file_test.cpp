@@ -116,6 +116,11 @@ TEST(MeshFile, VtkFilesHaveTheirArrays) {
   const std::string several = textOf(encodeVtu(particles, 0.25));
   EXPECT_NE(several.find("<DataArray type=\"UInt8\" Name=\"fluid\""), std::string::npos);
   expectArrays(several, 9);
+  particles.diffusing = {1};
+  particles.concentrations = {{0.25F, 1, 0}};
+  const std::string mixed = textOf(encodeVtu(particles, 0.25));
+  EXPECT_NE(mixed.find("<DataArray type=\"Float32\" Name=\"concentration1\""), std::string::npos);
+  expectArrays(mixed, 10);
   const std::pair<double, std::string> files[] = {{0, "frame_00000.vtu"}, {0.5, "frame_00001.vtu"}};
   EXPECT_NE(encodePvd(files).find("<DataSet timestep=\"0.5\" part=\"0\" file=\"frame_00001.vtu\"/>"), std::string::npos);
 }

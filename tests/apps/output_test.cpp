@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "capture/output_folder.hpp"
+#include "fill/ply_reader.hpp"
 #include "shared/message.hpp"
 #include "shared/ply.hpp"
 #include "shared/png.hpp"
@@ -46,6 +47,26 @@ TEST(Ply, EncodesBinaryLittleEndian) {
   EXPECT_EQ(values[0], 4);
   EXPECT_EQ(values[6], 998);
   EXPECT_EQ(id, 4000000000u);
+}
+
+TEST(Ply, EncodesConcentrationsOfFluidsThatDiffuse) {
+  offline::Particles particles;
+  particles.positions = particles.velocities = {{1, 2, 3}, {4, 5, 6}};
+  particles.densities = {1000, 900};
+  particles.ids = {7, 8};
+  particles.fluids = {0, 1};
+  particles.diffusing = {1, 3};
+  particles.concentrations = {{0.25F, 1}, {0.5F, 0}};
+  const TemporaryFolder folder;
+  ASSERT_TRUE(writePly(folder / "mixed.ply", particles, 0));
+  const auto file = PlyFile::open(folder / "mixed.ply", 4, particles.diffusing);
+  ASSERT_TRUE(file) << file.error().message;
+  const auto read = file->read();
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->fluids, particles.fluids);
+  EXPECT_EQ(read->concentrations, (std::vector<Float4>{{0.25F, 0.5F, 0, 0}, {1, 0, 0, 0}}));
+  constexpr size_t kOther[] = {2};
+  EXPECT_TRUE(PlyFile::open(folder / "mixed.ply", 4, kOther)->read()->concentrations.empty()) << "the file has none of this fluid";
 }
 
 TEST(Ply, EncodesFluidsWhereThereAreSeveral) {

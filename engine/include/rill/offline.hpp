@@ -74,6 +74,9 @@ struct Particles {
   std::vector<float> densities = {};    ///< kg/m^3
   std::vector<uint32_t> ids = {};       ///< index in the initial particles: the order of the fills
   std::vector<uint8_t> fluids = {};     ///< index among the scene's fluids; empty in a scene without `fluids`
+  /// The share of each of diffusingFluids() in each particle, 0 to 1 but for rounding, one after the other; empty if none diffuses.
+  std::vector<std::vector<float>> concentrations = {};
+  std::vector<size_t> diffusing = {};  ///< their indices among the scene's fluids
 };
 
 /// The diffuse particles of whitewater at one time, in the order of the device.
@@ -265,10 +268,11 @@ class Player {
   Player& operator=(Player&&) noexcept;
 
   /// Sets the particles to draw. `positions`: m, relative to `origin`. `velocities`: m/s, for the color of some views; may be empty.
-  /// `time_s`: time of moving solids, s. `fluids`: indices among resolvedFluids(); may be empty: all 0. BadInput if the numbers of
-  /// positions and velocities or fluids differ, or the scene lacks one of the fluids; TooLarge, OutOfMemory.
+  /// `time_s`: time of moving solids, s. `fluids`: indices among resolvedFluids(); may be empty: all 0. `concentrations`: as
+  /// FluidState::concentration; may be empty: nothing has mixed. BadInput if the numbers of positions and velocities, fluids or
+  /// concentrations differ, or the scene lacks one of the fluids; TooLarge, OutOfMemory.
   Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities = {},
-                      double time_s = 0, const std::vector<uint8_t>& fluids = {});
+                      double time_s = 0, const std::vector<uint8_t>& fluids = {}, const std::vector<Float4>& concentrations = {});
   /// As Simulation::render(). Without fluid before the first show().
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   Expected<LinearImage> renderLinear(uint32_t width, uint32_t height);                     ///< as Simulation::renderLinear()
