@@ -1,5 +1,6 @@
 #include "render/check_input.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -105,6 +106,8 @@ Expected<void> checkLook(const FluidLook& look) {
 Expected<void> checkBodies(std::span<const FluidBody> fluids) {
   if (fluids.size() > kMaxFluids)
     return badInput("found " + std::to_string(fluids.size()) + " fluids; expected at most " + std::to_string(kMaxFluids));
+  if (const auto diffusing = std::ranges::count(fluids, true, &FluidBody::diffuses); diffusing > std::ptrdiff_t{kMaxDiffusing})
+    return badInput("found " + std::to_string(diffusing) + " fluids that diffuse; expected at most " + std::to_string(kMaxDiffusing));
   for (const FluidBody& body : fluids) {
     if (!body.absorption) continue;
     for (const float rate : {body.absorption->x, body.absorption->y, body.absorption->z})

@@ -31,6 +31,7 @@ FluidBody fluidBody(const std::optional<Double3>& color) {
 std::vector<FluidBody> fluidBodies(const Scene& scene) {
   std::vector<FluidBody> bodies;
   for (const FluidMaterial& fluid : scene.fluids) bodies.push_back(fluidBody(fluid.color));
+  for (const size_t k : diffusingFluids(scene)) bodies[k].diffuses = true;
   const bool colored = std::ranges::any_of(bodies, [](const FluidBody& body) { return body.absorption.has_value(); });
   return colored ? bodies : std::vector<FluidBody>{};
 }

@@ -73,7 +73,7 @@ Expected<void> FluidRendererImpl::setEnvironment(const EnvironmentPicture& pictu
 Expected<void> FluidRendererImpl::setFluids(std::span<const FluidBody> fluids) {
   if (auto ok = checkBodies(fluids); !ok) return ok;
   if (fluids.size() > 1)
-    if (auto made = surface.setFluids(*device->device, static_cast<uint32_t>(fluids.size())); !made) return made;
+    if (auto made = surface.setFluids(*device->device, fluids); !made) return made;
   bodies.assign(fluids.begin(), fluids.end());
   return makeShade();
 }

@@ -2,6 +2,7 @@
 // From particles to a smooth surface: depth, normal and coverage of each pixel. The methods differ in the smoothing only.
 #include <array>
 #include <functional>
+#include <span>
 #include <string_view>
 
 #include "gpu/resources.hpp"
@@ -49,8 +50,8 @@ class SurfaceStage {
   SurfaceBuffers addTo(Graph& graph, const FluidState& fluid, surface::SurfacePush camera, SurfaceMethod method, bool whole, double focus,
                        const SurfaceSettings& settings = {}) const;
 
-  /// For addThickness() of `count` fluids, 1 to kMaxFluids.
-  Expected<void> setFluids(Device& device, uint32_t count);
+  /// For addThickness() of several fluids, at most kMaxFluids.
+  Expected<void> setFluids(Device& device, std::span<const FluidBody> fluids);
 
   /// Which thicknesses addThickness() computes.
   enum class Of : uint8_t { All, EachFluid };
@@ -100,7 +101,8 @@ class SurfaceStage {
   const ComputePipeline *particleGroups_ = nullptr, *occlude_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
                         *pick_ = nullptr, *scatter_ = nullptr, *order_ = nullptr, *planes_ = nullptr, *blend_ = nullptr, *tiles_ = nullptr,
                         *compose_ = nullptr, *edges_ = nullptr, *edgesFiltered_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr,
-                        *thickness_ = nullptr, *thicknessNoScene_ = nullptr, *fluidThickness_ = nullptr, *fluidThicknessNoScene_ = nullptr;
+                        *thickness_ = nullptr, *thicknessNoScene_ = nullptr, *fluidThickness_ = nullptr, *fluidThicknessNoScene_ = nullptr,
+                        *mixedThickness_ = nullptr, *mixedThicknessNoScene_ = nullptr;
 };
 
 /// Pixels per side of a sample, such that a spacing at `depth` has `samples` to twice as many samples.

@@ -1,6 +1,10 @@
 // The thickness of the fluid along rays, as passes.
+#include <utility>
+#include <vector>
+
 #include "gpu/module_pipelines.hpp"
 #include "graph/shader_pass.hpp"
+#include "render/mixture.hpp"
 #include "render/surface.hpp"
 
 namespace rill {
@@ -24,13 +28,30 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
   return camera;
 }
 
-Expected<void> SurfaceStage::setFluids(Device& device, uint32_t count) {
+Expected<void> SurfaceStage::setFluids(Device& device, std::span<const FluidBody> fluids) {
+  const auto count = static_cast<uint32_t>(fluids.size());
   ModulePipelines pipelines(device);
+  std::vector<bool> diffuses;
+  for (const FluidBody& fluid : fluids) diffuses.push_back(fluid.diffuses);
+  const MixtureConstants m = mixtureConstants(diffuses);
+  const ComputePipeline *mixed = nullptr, *mixedFree = nullptr;
+  if (m.diffusing[0] != kNoFluid)
+    for (const auto& [pipeline, name] :
+         {std::pair{&mixed, "render/surface_thickness_mixed"}, {&mixedFree, "render/surface_thickness_mixed_no_scene"}})
+      *pipeline = pipelines.make(name, false,
+                                 {{"FLUIDS", count},
+                                  {"DIFFUSING_0", m.diffusing[0]},
+                                  {"DIFFUSING_1", m.diffusing[1]},
+                                  {"DIFFUSING_2", m.diffusing[2]},
+                                  {"DIFFUSING_3", m.diffusing[3]},
+                                  {"CARRIER", m.carrier}});
   const ComputePipeline* behindScene = pipelines.make("render/surface_thickness", false, {{"FLUIDS", count}});
   const ComputePipeline* free = pipelines.make("render/surface_thickness_no_scene", false, {{"FLUIDS", count}});
   if (auto made = pipelines.result(); !made) return made;
   fluidThickness_ = behindScene;
   fluidThicknessNoScene_ = free;
+  mixedThickness_ = mixed;
+  mixedThicknessNoScene_ = mixedFree;
   fluids_ = count;
   return {};
 }
@@ -46,12 +67,17 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
   if (fluid.capacity == 0) return thickness;
   const CountedParticles particles = surface ? surface->particles : countParticles(graph, fluid, particleGroups_, kSurfaceGroup);
   BufferRef& counters = surface ? surface->counters : own;
-  const ComputePipeline* pipeline = each ? (hidden ? fluidThickness_ : fluidThicknessNoScene_) : hidden ? thickness_ : thicknessNoScene_;
+  const bool mixed = each && mixedThickness_ && fluid.concentration != BufferRef{};
+  const ComputePipeline* pipeline = mixed    ? (hidden ? mixedThickness_ : mixedThicknessNoScene_)
+                                    : each   ? (hidden ? fluidThickness_ : fluidThicknessNoScene_)
+                                    : hidden ? thickness_
+                                             : thicknessNoScene_;
   addDispatch(graph, names.pass, pipeline, particles.groups, push,
               {{"position", fluid.position},
                {"particle_count", particles.count},
                {"thickness", thickness},
                {"counters", counters},
+               {"concentration", fluid.concentration},
                {"scene_depth", sceneDepth}});
   return thickness;
 }

@@ -11,12 +11,14 @@ using namespace particle_view;
 
 void ParticleView::add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& f) const {
   const BufferRef &scene = f.scene, &position = f.position, &velocity = f.velocity, &words = f.meshWords, &count = f.particles.count;
-  addDispatch(
-      graph, name, pipeline, size, f.push,
-      {{"scene", scene},       {"position", position},   {"particle_count", count},  {"velocity", velocity},   {"placed", f.poses},
-       {"mesh_words", words},  {"edges", f.edges},       {"masks", f.masks},         {"depth", f.depth},       {"winner", f.winner},
-       {"light_map", f.light}, {"floor_light", f.floor}, {"occluders", f.occluders}, {"counters", f.counters}, {"survivors", f.survivors},
-       {"tint", f.tint},       {"tiles", f.tiles},       {"shaded", f.shaded},       {"rims", f.rims},         {"picture", f.picture}});
+  addDispatch(graph, name, pipeline, size, f.push,
+              {{"scene", scene},           {"position", position},   {"particle_count", count},
+               {"velocity", velocity},     {"placed", f.poses},      {"mesh_words", words},
+               {"edges", f.edges},         {"masks", f.masks},       {"depth", f.depth},
+               {"winner", f.winner},       {"light_map", f.light},   {"floor_light", f.floor},
+               {"occluders", f.occluders}, {"counters", f.counters}, {"survivors", f.survivors},
+               {"tint", f.tint},           {"tiles", f.tiles},       {"shaded", f.shaded},
+               {"rims", f.rims},           {"picture", f.picture},   {"concentration", f.concentration}});
 }
 
 void ParticleView::addSetup(Graph& graph, const FluidState& fluid, Frame& frame) const {
@@ -86,7 +88,8 @@ void ParticleView::addSplat(Graph& graph, Frame& frame, bool winners) const {
 /// Color, ambient occlusion and shadow of each particle that may be visible.
 void ParticleView::addTint(Graph& graph, Frame& frame) const {
   frame.tint = graph.create("view tint", {std::max<uint64_t>(frame.push.count, 1) * 8});
-  add(graph, "view tint", tint_, {frame.counters, kTintArguments * 4}, frame);
+  const bool mixed = mixedTint_ && frame.push.coloring == kByFluid && frame.concentration != BufferRef{};
+  add(graph, "view tint", mixed ? mixedTint_ : tint_, {frame.counters, kTintArguments * 4}, frame);
 }
 
 void ParticleView::addFloorShadow(Graph& graph, Frame& frame) const {

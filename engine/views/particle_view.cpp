@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/module_pipelines.hpp"
+#include "render/mixture.hpp"
+
 namespace rill {
 namespace {
 
@@ -63,6 +66,19 @@ Expected<std::unique_ptr<ParticleView>> ParticleView::create(Device& device, con
     if (!made) return made.error();
     pipeline = *made;
   }
+  if (!diffusingFluids(scene).empty()) {
+    std::vector<bool> diffuses;
+    for (const FluidMaterial& fluid : scene.fluids) diffuses.push_back(fluid.diffusion > 0);
+    const MixtureConstants m = mixtureConstants(diffuses);
+    ModulePipelines pipelines(device);
+    out->mixedTint_ = pipelines.make("views/particle_tint_mixed", false,
+                                     {{"DIFFUSING_0", m.diffusing[0]},
+                                      {"DIFFUSING_1", m.diffusing[1]},
+                                      {"DIFFUSING_2", m.diffusing[2]},
+                                      {"DIFFUSING_3", m.diffusing[3]},
+                                      {"CARRIER", m.carrier}});
+    if (auto made = pipelines.result(); !made) return made.error();
+  }
   auto groups = computePipeline(device, {.shader = "render/particle_groups"});
   if (!groups) return groups.error();
   out->particleGroups_ = *groups;
@@ -107,6 +123,7 @@ BufferRef ParticleView::addTo(Graph& graph, const FluidState& fluid, const Camer
   frame.pixels = uint64_t{desc.width} * desc.height;
   frame.position = fluid.position;
   frame.velocity = fluid.velocity;
+  frame.concentration = fluid.concentration;
   if (meshRays_.surfaces) frame.meshWords = fluid.meshWords;
   if (fluid.capacity > 0) frame.particles = countParticles(graph, fluid, particleGroups_, kParticleGroup);
   addSetup(graph, fluid, frame);

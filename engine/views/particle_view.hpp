@@ -51,7 +51,7 @@ class ParticleView {
   struct Frame {
     particle_view::ViewPush push;
     uint64_t pixels = 0;
-    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, counters, survivors;
+    BufferRef scene, poses, edges, depth, winner, light, floor, tint, position, velocity, concentration, counters, survivors;
     BufferRef meshWords;         ///< of the fluid, if the view can draw its meshes
     CountedParticles particles;  ///< without any, empty
     BufferRef masks, occluders, tiles, shaded, rims, picture;
@@ -89,8 +89,8 @@ class ParticleView {
   const ComputePipeline *edges_ = nullptr, *solidTiles_ = nullptr, *lightTiles_ = nullptr, *floor_ = nullptr;
   const ComputePipeline *particleGroups_ = nullptr, *project_ = nullptr, *cull_ = nullptr, *arguments_ = nullptr, *splat_ = nullptr,
                         *splatLarge_ = nullptr;
-  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr, *shadeFloor_ = nullptr,
-                        *shadeShadowedFloor_ = nullptr;
+  const ComputePipeline *floorShadow_ = nullptr, *tint_ = nullptr, *mixedTint_ = nullptr, *classify_ = nullptr, *shadeFluid_ = nullptr,
+                        *shadeFloor_ = nullptr, *shadeShadowedFloor_ = nullptr;
   const ComputePipeline *shadeSky_ = nullptr, *resolve_ = nullptr, *drawEdges_ = nullptr;
 };
 

@@ -79,7 +79,7 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   if (std::vector<FluidBody> bodies = fluidBodies(scene); bodies.size() > 1) out->fluids_ = std::move(bodies);
   const auto fluids = static_cast<uint32_t>(std::max<size_t>(out->fluids_.size(), 1));
   if (fluids > 1)
-    if (auto set = out->stage_.setFluids(device, fluids); !set) return set.error();
+    if (auto set = out->stage_.setFluids(device, out->fluids_); !set) return set.error();
   auto meshes = SceneMeshes::create(device, scene);
   if (!meshes) return meshes.error();
   out->meshes_ = *std::move(meshes);

@@ -1,6 +1,7 @@
 #version 460
 // Thickness of the fluid along each sample's ray: each particle spreads its volume over a disc. With NO_SCENE nothing occludes it.
 // Of several fluids the thickness of each, one grid of samples after the other; in front of a scene also the depth where each begins.
+// MIXED: particles give each fluid its share in them.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
@@ -10,8 +11,15 @@ layout(std430, set = 0, binding = 0) readonly buffer Position { vec4 position[];
 layout(std430, set = 0, binding = 1) buffer Thickness { uint thickness[]; };  // in view.unit
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 3) readonly buffer ParticleCount { uint particle_count; };
+#ifdef MIXED
+layout(std430, set = 0, binding = 4) readonly buffer Concentration { vec4 concentration[]; };
+#include "shared/mixture.glsl"
+#define SCENE_BINDING 5
+#else
+#define SCENE_BINDING 4
+#endif
 #ifndef NO_SCENE
-layout(std430, set = 0, binding = 4) readonly buffer SceneDepth { float scene_depth[]; };  // m per pixel
+layout(std430, set = 0, binding = SCENE_BINDING) readonly buffer SceneDepth { float scene_depth[]; };  // m per pixel
 #endif
 
 bool behindScene(ivec2 at, float z) {
@@ -23,6 +31,15 @@ bool behindScene(ivec2 at, float z) {
 #endif
 }
 
+#ifdef MIXED
+const float kBegins = 0.1;  // share of a fluid in a particle from which on it counts as one of those where the fluid begins
+float shares[FLUIDS];
+
+void beginVisit(uint owner) {
+  const uint i = groupIndex() * kSurfaceGroup + owner, own = min(uint(position[i].w + 0.5), FLUIDS - 1u);
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) shares[fluid] = shareOf(fluid, own, concentration[i]);
+}
+#else
 uint first_sample = 0u;  // of the grid of the particle's fluid
 
 void beginVisit(uint owner) {
@@ -30,16 +47,29 @@ void beginVisit(uint owner) {
   const uint fluid = uint(position[groupIndex() * kSurfaceGroup + owner].w + 0.5);
   first_sample = min(fluid, FLUIDS - 1u) * sampleGrid().x * sampleGrid().y;
 }
+#endif
 
 void add(ivec2 at, float z, float meters) {
   const ivec2 grid = ivec2(sampleGrid());
   if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, grid)) || behindScene(at, z)) return;
+#ifdef MIXED
+  const uint cells = uint(grid.x * grid.y), cell = uint(at.y * grid.x + at.x);
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
+    const uint part = uint(shares[fluid] * meters / view.unit + 0.5);
+    if (part == 0u) continue;
+    atomicAdd(thickness[fluid * cells + cell], part);
+#ifndef NO_SCENE
+    if (shares[fluid] >= kBegins) atomicMax(thickness[(FLUIDS + fluid) * cells + cell], ~floatBitsToUint(z));
+#endif
+  }
+#else
   const uint amount = uint(meters / view.unit + 0.5);
   if (amount == 0u) return;
   const uint index = first_sample + uint(at.y * grid.x + at.x);
   atomicAdd(thickness[index], amount);
 #ifndef NO_SCENE
   if (FLUIDS > 1u) atomicMax(thickness[FLUIDS * uint(grid.x * grid.y) + index], ~floatBitsToUint(z));  // 0: none
+#endif
 #endif
 }
 

@@ -12,13 +12,30 @@ layout(std430, set = 0, binding = 4) readonly buffer Survivors { uint survivors[
 layout(std430, set = 0, binding = 5) readonly buffer Depth { uint depth[]; };
 layout(std430, set = 0, binding = 6) readonly buffer LightMap { uint light_map[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Tint { uvec2 tint[]; };
+#ifdef MIXED
+layout(std430, set = 0, binding = 8) readonly buffer Concentration { vec4 concentration[]; };
+#include "shared/mixture.glsl"
+#endif
 #define LIGHT_MAP_READ
 #include "views/particle_light.glsl"
 
-vec3 particleColor(vec4 v, float fluid) {
+// Of a particle by its fluids.
+vec3 fluidColor(uint i) {
+  const uint own = min(uint(position[i].w + 0.5), kViewFluids - 1u);
+#ifdef MIXED
+  vec3 color = vec3(0.0);
+  for (uint fluid = 0u; fluid < kViewFluids; ++fluid) color += shareOf(fluid, own, concentration[i]) * scene.fluids[fluid].rgb;
+  return color;
+#else
+  return scene.fluids[own].rgb;
+#endif
+}
+
+vec3 particleColor(uint i) {
+  const vec4 v = velocity[i];
   const bool asleep = scene.asleep.w > 0.0 && v.xyz == vec3(0.0);  // what is awake always moves a little
   if (view.coloring == kByFluid) {
-    const vec3 own = scene.fluids[min(uint(fluid + 0.5), kViewFluids - 1u)].rgb;
+    const vec3 own = fluidColor(i);
     return asleep ? mix(own, scene.asleep.rgb, 0.5) : own;
   }
   if (view.coloring == kBySpeed && asleep) return scene.asleep.rgb;
@@ -57,7 +74,7 @@ void main() {
   if (k >= small + counters[kLargeCount]) return;
   const uint i = k < small ? survivors[k] : survivors[view.count - 1u - (k - small)];
   const vec3 world = particlePoint(position[i].xyz);
-  const vec3 root = sqrt(particleColor(velocity[i], position[i].w));
+  const vec3 root = sqrt(particleColor(i));
   if (view.unlit != 0u) {
     tint[i] = uvec2(packUnorm2x16(root.rg), uint(root.b * 65535.0 + 0.5));
     return;

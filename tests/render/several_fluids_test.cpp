@@ -50,7 +50,7 @@ class ThicknessOfFluids : public SurfaceOnGpu {
 TEST_F(ThicknessOfFluids, IsThatOfTheirParticlesAlone) {
   constexpr uint32_t kFluids = 3;
   auto stage = SurfaceStage::create(device());
-  ASSERT_TRUE(stage && stage->setFluids(device(), kFluids));
+  ASSERT_TRUE(stage && stage->setFluids(device(), std::vector<FluidBody>(kFluids)));
   const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
   auto particles = scattered({-2, -1.5, -5}, {2, 1.5, -0.2}, 1500);
   for (size_t i = 0; i < particles.size(); ++i) particles[i].w = float(i * 7 % 5 % kFluids);

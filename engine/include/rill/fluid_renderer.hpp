@@ -98,6 +98,7 @@ struct FluidBody {
   /// sunlight shines through its crests.
   std::optional<Float3> absorption = {};
   Float3 scatter{0, 0, 0};  ///< as FluidLook::scatter, of a fluid with an absorption
+  bool diffuses = false;    ///< a component of FluidState::concentration is its share, in the order of those that do; at most four do
 };
 
 /// A clear liquid of this FluidMaterial::color, which scatters as little as the preset `water`; without a color it looks as the FluidLook.
@@ -115,8 +116,8 @@ enum class SurfaceData : uint8_t {
 
 class FluidRendererImpl;
 
-/// Draws the fluid of a FluidState. Only its position, countBuffer, capacity, spacing and origin are used, so that a host can fill one
-/// itself. With several fluids (setFluids()) w of a position is the index of the particle's fluid.
+/// Draws the fluid of a FluidState. Only its position, concentration (of fluids that diffuse), countBuffer, capacity, spacing and origin
+/// are used, so that a host can fill one itself. With several fluids (setFluids()) w of a position is the index of the particle's fluid.
 /// The number of particles is the first uint of `countBuffer`, at most `capacity`; without a countBuffer it is `capacity`. Entries
 /// at 1e9 m are skipped. Both buffers are read with Use::ComputeRead; a host creates its own for STORAGE_BUFFER, `position` with at least
 /// 16 bytes per entry, `countBuffer` with at least 4.
