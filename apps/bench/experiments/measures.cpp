@@ -44,6 +44,7 @@ Cloud cloudOf(const offline::Particles& particles, double spacing_m) {
   cloud.spacing = spacing_m;
   for (const Float3& position : particles.positions) cloud.position.push_back(wide(position));
   for (const Float3& velocity : particles.velocities) cloud.velocity.push_back(wide(velocity));
+  if (!particles.concentrations.empty()) cloud.share = particles.concentrations.front();
   return cloud;
 }
 

@@ -19,6 +19,7 @@ struct Cloud {
   std::vector<Double3> position;  ///< m
   std::vector<Double3> velocity;  ///< m/s
   double spacing = 0;             ///< m
+  std::vector<float> share = {};  ///< of the first fluid that diffuses; empty if none does
   size_t size() const { return position.size(); }
 };
 Cloud cloudOf(const offline::Particles& particles, double spacing_m);

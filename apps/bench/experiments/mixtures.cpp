@@ -1,4 +1,4 @@
-// Several fluids: layers at rest, a heavy layer over a light one (Rayleigh-Taylor), and a lock exchange.
+// Several fluids: layers at rest, a heavy layer over a light one (Rayleigh-Taylor), a lock exchange, and diffusion.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -169,6 +169,44 @@ Expected<Outcome> lockExchange(const Bench& bench, unsigned level) {
   return outcome;
 }
 
+// A still tank of two equal fluids side by side, of which one diffuses. Where its share is c = erfc(x / 2 sqrt(D t)) / 2, an amount of
+// sqrt(D t / pi) a unit of area has passed. The walls are too far to matter.
+constexpr double kMixLong = 0.4, kMixDepth = 0.2, kMixDiffusivity = 5e-4, kMixEnd = 2;  // m, m^2/s, s
+constexpr double kMixSpacing[kLevels] = {kMixLong / 20, kMixLong / 30, kMixLong / 40};
+
+Expected<Outcome> diffusion(const Bench& bench, unsigned level) {
+  const double spacing = kMixSpacing[level], wide = 8 * spacing, middle = kMixLong / 2;
+  Scene tank = boxScene(spacing, {0, 0, 0}, {kMixLong, 2 * kMixDepth, wide});
+  tank.fluids = {{.name = "water"}, {.name = "milk", .diffusion = kMixDiffusivity}};
+  tank.fill = {boxFill({0, 0, 0}, {middle, kMixDepth, wide}), boxFill({middle, 0, 0}, {kMixLong, kMixDepth, wide})};
+  tank.fill.front().fluid = "milk";
+  Outcome outcome;
+  double squares = 0, passed = 0, all = 0;
+  Curve profile;
+  auto run = runSampled(
+      bench, tank, kMixEnd, kMixtureFrame, [](double time) { return time > kMixEnd - kMixtureFrame / 2; },
+      [&](const Cloud& cloud, double time) {
+        for (size_t i = 0; i < cloud.size(); ++i) {
+          const double x = cloud.position[i].x - middle, c = cloud.share.at(i);
+          const double off = c - 0.5 * std::erfc(x / (2 * std::sqrt(kMixDiffusivity * time)));
+          squares += off * off / double(cloud.size());
+          passed += x > 0 ? c : 0;
+          all += c;
+          profile.emplace_back(x, c);
+        }
+        passed *= std::pow(spacing, 3) / (kMixDepth * wide);
+        all *= std::pow(spacing, 3) / (middle * kMixDepth * wide);
+      });
+  if (!run) return run.error();
+  outcome.run = std::move(*run);
+  if (bench.stopped()) return outcome;
+  outcome.curves["profile"] = curveJson(profile);
+  outcome.figures.push_back(relativeFigure("amount that has passed", passed, std::sqrt(kMixDiffusivity * kMixEnd / std::numbers::pi)));
+  outcome.figures.push_back(plainFigure("share, rms", std::sqrt(squares)));
+  outcome.figures.push_back(relativeFigure("amount", all, 1));
+  return outcome;
+}
+
 }  // namespace
 
 std::vector<Experiment> mixtureExperiments() {
@@ -183,6 +221,8 @@ std::vector<Experiment> mixtureExperiments() {
   for (unsigned level = 0; level < kLevels; ++level)
     all.push_back(
         {"lock-exchange", level, level == 0, kLockSpacing[level], [level](const Bench& bench) { return lockExchange(bench, level); }});
+  for (unsigned level = 0; level < kLevels; ++level)
+    all.push_back({"diffusion", level, level == 0, kMixSpacing[level], [level](const Bench& bench) { return diffusion(bench, level); }});
   return all;
 }
 

@@ -32,6 +32,8 @@ void addRandomFluids(Scene& scene, uint64_t seed) {
     fill.fluid = scene.fluids[k].name;
   }
   for (Emitter& emitter : scene.emitters) emitter.fluid = scene.fluids[random() % count].name;
+  if (random() % 2 == 0)
+    for (size_t k = 0; k < std::min(count, kMaxDiffusing); ++k) scene.fluids[k].diffusion = random() % 2 == 0 ? power(-9, 2) : 0;
 }
 
 }  // namespace rill::bench

@@ -55,6 +55,7 @@ constexpr const char* kMoving =
     R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "motion": [{"at": 0}, {"at": 1, "translate": [0.5, 0, 0]}]}])";
 
 constexpr const char* kFluids = R"([{"name": "water"}, {"name": "oil", "density": 900}])";  // all of the base scene is water
+constexpr const char* kDiffusing = R"([{"name": "water"}, {"name": "milk", "diffusion": 0.001}])";
 
 /// The ball of kSphere as a mesh.
 Solid meshBall() {
@@ -75,6 +76,7 @@ std::vector<Feature> features() {
       // When it is off, its other settings must have no effect.
       {"tensile", {{"fluid.tensile", "0.5"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
       {"several fluids", {{"rill", "\"0.2\""}, {"fluids", kFluids}}, {{"rill", "\"0.2\""}, {"fluids", "[]"}}},
+      {"diffusion", {{"rill", "\"0.2\""}, {"fluids", kDiffusing}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
       {"solid out of reach", {{"solids", kDistantBox}}},  // without a solid it equals "solid box" off
       {"solid sphere", {{"solids", kSphere}}},
