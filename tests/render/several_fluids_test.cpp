@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "offline/painter.hpp"
 #include "render/surface_rig.hpp"
@@ -35,9 +36,14 @@ TEST(FluidBodies, AreLeftOutWhereNoFluidHasAColor) {
 
 class ThicknessOfFluids : public SurfaceOnGpu {
  protected:
-  std::vector<uint32_t> thickness(SurfaceStage& stage, const FluidView& view, uint32_t step, SurfaceStage::Of of) {
+  /// `concentrations`: of each particle; empty: there are none.
+  std::vector<uint32_t> thickness(SurfaceStage& stage, const FluidView& view, uint32_t step, SurfaceStage::Of of,
+                                  const std::vector<Float4>& concentrations = {}) {
     Graph graph;
-    const FluidState fluid = state(graph);
+    FluidState fluid = state(graph);
+    std::optional<Buffer> mixed;
+    if (!concentrations.empty()) mixed = upload("concentrations", concentrations);
+    if (mixed) fluid.concentration = graph.import("concentrations", importOf(*mixed));
     const SurfacePush push = SurfaceStage::thicknessPush(viewPush(view, Double3{0, 0, 0}), fluid, step);
     const Ticket ticket = graph.readback(stage.addThickness(graph, kFluidThickness, fluid, push, {}, nullptr, of));
     run(graph);
@@ -73,6 +79,34 @@ TEST_F(ThicknessOfFluids, IsThatOfTheirParticlesAlone) {
       for (size_t i = 0; i < sum.size(); ++i) sum[i] += alone[i];
     }
     EXPECT_EQ(sum, all);
+  }
+}
+
+TEST_F(ThicknessOfFluids, OfWhatHasMixedAreTheSharesOfEach) {
+  constexpr uint32_t kFluids = 3;
+  std::vector<FluidBody> bodies(kFluids);
+  bodies[1].diffuses = true;
+  auto stage = SurfaceStage::create(device());
+  ASSERT_TRUE(stage && stage->setFluids(device(), bodies));
+  const FluidView eye = looking({0, 0, 0}, {0, 0, -4}, 64, 48);
+  auto particles = scattered({-2, -1.5, -5}, {2, 1.5, -0.2}, 500);
+  for (size_t i = 0; i < particles.size(); ++i) particles[i].w = float(i % kFluids);
+  std::vector<Float4> unmixed, quarter(particles.size(), Float4{0.25F, 7, 7, 7});  // components that are of no fluid do not count
+  for (const Float4& p : particles) unmixed.push_back({p.w == 1 ? 1.0F : 0.0F, 0, 0, 0});
+  for (const uint32_t step : {8u, 1u}) {
+    fill(particles);
+    const auto each = thickness(*stage, eye, step, SurfaceStage::Of::EachFluid), all = thickness(*stage, eye, step, SurfaceStage::Of::All);
+    EXPECT_EQ(thickness(*stage, eye, step, SurfaceStage::Of::EachFluid, unmixed), each) << step;
+    const auto mixed = thickness(*stage, eye, step, SurfaceStage::Of::EachFluid, quarter);
+    ASSERT_EQ(mixed.size(), each.size());
+    // A particle's part is rounded to a unit: of 500 particles those on a ray are some tens.
+    constexpr double kRounding = 50;
+    for (size_t i = 0; i < all.size(); ++i) {
+      const double own[] = {double(each[i]), double(each[all.size() + i]), double(each[2 * all.size() + i])};
+      EXPECT_NEAR(mixed[i], 0.75 * (own[0] + own[1]), kRounding) << "the first that does not diffuse is the rest of the one that does";
+      EXPECT_NEAR(mixed[all.size() + i], 0.25 * all[i], kRounding);
+      EXPECT_NEAR(mixed[2 * all.size() + i], 0.75 * own[2], kRounding);
+    }
   }
 }
 
