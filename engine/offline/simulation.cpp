@@ -199,7 +199,8 @@ class Simulation::Impl {
     stats.listBuilds = advanced_.listBuilds;
     const ProbeReader reader(scene_, readout_.positions, start_.origin);
     stats.front_m = reader.front(Axis::PlusX);
-    stats.stateHash = stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies(), readout_.concentrations);
+    stats.stateHash =
+        stateHash(readout_.positions, readout_.velocities, readout_.ids, fluid_->bodies(), readout_.fluids, readout_.concentrations);
     stats.probes = probes_.read(*fluid_, reader, measured_->time_s, advanced_s_ - advanced_.timeDropped_s);
     if (white_) stats.whitewater = whiteStats_;
     stats.pictureBoundHits = pictureBoundHits_;

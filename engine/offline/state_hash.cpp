@@ -34,10 +34,12 @@ std::vector<uint32_t> orderById(std::span<const uint32_t> ids) {
 }
 
 uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> velocities, std::span<const uint32_t> ids,
-                   std::span<const BodyMotion> bodies, std::span<const Float4> concentrations) {
+                   std::span<const BodyMotion> bodies, std::span<const uint8_t> fluids, std::span<const Float4> concentrations) {
   assert(positions.size() == ids.size() && velocities.size() == ids.size());
+  assert((fluids.empty() || fluids.size() == ids.size()) && (concentrations.empty() || concentrations.size() == ids.size()));
   Fnv1a hash;
-  for (const uint32_t i : orderById(ids)) {
+  const std::vector<uint32_t> order = orderById(ids);
+  for (const uint32_t i : order) {
     add(hash, positions[i]);
     add(hash, velocities[i]);
   }
@@ -46,9 +48,10 @@ uint64_t stateHash(std::span<const Float3> positions, std::span<const Float3> ve
     add(hash, Double3{body.rotation.x, body.rotation.y, body.rotation.z});
     hash.add(std::bit_cast<uint64_t>(body.rotation.w));
   }
+  if (std::ranges::any_of(fluids, [](uint8_t fluid) { return fluid != 0; }))
+    for (const uint32_t i : order) hash.add(uint32_t{fluids[i]});
   if (concentrations.empty()) return hash.value();
-  assert(concentrations.size() == ids.size());
-  for (const uint32_t i : orderById(ids))
+  for (const uint32_t i : order)
     for (float number : {concentrations[i].x, concentrations[i].y, concentrations[i].z, concentrations[i].w})
       hash.add(std::bit_cast<uint32_t>(number));
   return hash.value();

@@ -36,6 +36,17 @@ TEST(StateHash, DependsOnEveryBit) {
   EXPECT_NE(stateHash(kPositions, velocities, kIds), base);
 }
 
+TEST(StateHash, CoversTheFluidOfEachParticle) {
+  const auto of = [](const std::vector<uint32_t>& ids, const std::vector<uint8_t>& fluids) {
+    return stateHash(kPositions, kVelocities, ids, {}, fluids);
+  };
+  EXPECT_NE(of(kIds, {0, 1, 0}), of(kIds, {0, 0, 1}));
+  EXPECT_NE(of(kIds, {0, 1, 0}), of(kIds, {0, 2, 0}));
+  const std::vector<Float3> p = {kPositions[2], kPositions[0], kPositions[1]}, v = {kVelocities[2], kVelocities[0], kVelocities[1]};
+  EXPECT_EQ(stateHash(p, v, std::vector<uint32_t>{2, 0, 1}, {}, std::vector<uint8_t>{0, 2, 1}), of(kIds, {2, 1, 0}));
+  EXPECT_EQ(of(kIds, {0, 0, 0}), stateHash(kPositions, kVelocities, kIds)) << "one fluid";
+}
+
 TEST(OrderById, SortsIdsWithGapsAndRepeats) {
   EXPECT_EQ(orderById(std::vector<uint32_t>{2, 0, 1}), (std::vector<uint32_t>{1, 2, 0}));
   EXPECT_EQ(orderById(std::vector<uint32_t>{90, 7, 40}), (std::vector<uint32_t>{1, 2, 0}));

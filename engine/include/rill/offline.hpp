@@ -165,7 +165,7 @@ using ProbeValue = std::variant<double, LoadValue, PoseValue, PressureValue, Flo
 /// Statistics at one time, as written by `rill-capture --stats`.
 struct Stats : FluidStats {
   double front_m = 0;                                           ///< farthest fluid along +x, relative to the domain's minimum, m
-  uint64_t stateHash = 0;                                       ///< FNV-1a of positions and velocities in id order, then of bodies
+  uint64_t stateHash = 0;                                       ///< FNV-1a of positions and velocities in id order, bodies, fluids
   std::vector<std::pair<std::string, ProbeValue>> probes = {};  ///< name and value
   std::optional<WhitewaterStats> whitewater = {};               ///< with Look::whitewater
   uint64_t pictureBoundHits = 0;      ///< times that shader loops of the renderer reached their limit in pictures at this time
