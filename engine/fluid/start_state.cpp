@@ -109,7 +109,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   std::vector<uint32_t> id(count);
   FluidSums sums{};
   float fastest = 0;
-  double squares = 0;
+  double squares = 0, motion = 0;
   for (uint32_t i = 0; i < count; ++i) {
     Float3 &x = positions[i], &v = velocities[i];
     const float speed = speedOf(v);
@@ -119,10 +119,16 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
       x = {kInactivePosition, kInactivePosition, kInactivePosition};
       v = {};
     }
-    if (good) fastest = std::max(fastest, speed), squares += double{speed} * speed;
+    if (good) {
+      const double squared = double{speed} * speed;
+      fastest = std::max(fastest, speed), squares += squared;
+      motion += std::min(squared / setup.params.layerHead, double{kMaxMotion});
+    }
     id[i] = i;
   }
   sums.speedMax = std::bit_cast<uint32_t>(fastest);
+  const auto motionUnits = static_cast<uint64_t>(std::round(motion / kMotionUnit));
+  sums.motionLow = static_cast<uint32_t>(motionUnits), sums.motionHigh = static_cast<uint32_t>(motionUnits >> 32);
   sums.bodySpeed = std::bit_cast<uint32_t>(setup.params.bodySpeed);
 
   FluidControl control{};
