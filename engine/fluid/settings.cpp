@@ -126,7 +126,8 @@ void setNoSlip(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& se
   const auto found = std::ranges::find(scene.solids, false, &Solid::slip);
   if (!walls && found == scene.solids.end()) return;
   const std::string key = walls ? "domain" : elementPath("solids", static_cast<size_t>(found - scene.solids.begin()));
-  setup.warnings.push_back(key + ".slip: false has no effect: fluid.viscosity is 0, expected more (Pa s)");
+  const std::string what = scene.fluids.empty() ? "fluid.viscosity is 0" : "the viscosity of every fluid is 0";
+  setup.warnings.push_back(key + ".slip: false has no effect: " + what + ", expected more (Pa s)");
 }
 
 // The end of a warning about a setting beyond its bound.

@@ -248,6 +248,12 @@ TEST_F(FluidsTest, WarnsOfWhatItDoesNotDo) {
   EXPECT_TRUE(std::ranges::any_of(warnings, [&](const std::string& w) { return w.starts_with(ratio); }));
   run->substeps(50);
   EXPECT_TRUE(run->snapshot().finite());
+
+  t.scene.domain->slip = false;
+  const std::string noSlip = "domain.slip: false has no effect: the viscosity of every fluid is 0, expected more (Pa s)";
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), noSlip), 1);
+  t.scene.fluids[1].viscosity = 1;
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), noSlip), 0);
 }
 
 }  // namespace fluids_test
