@@ -1,4 +1,4 @@
-// Bodies: how deep boxes float, which side turns up, the first acceleration of released balls, heave, and momentum.
+// Bodies: how deep boxes float, in one liquid and between two, which side turns up, how released balls start, heave, and momentum.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -72,6 +72,27 @@ Expected<Outcome> draught(const Bench& bench, double ratio, double spacing) {
   const double level = (fluid + deep * kEdge * kEdge) / (kWide * kWide);
   const double found = level - (middle - kHeight / 2);
   outcome.figures.push_back({"draught", found, deep, (found - deep) / spacing});
+  outcome.figures.push_back(plainFigure("tilt", std::acos(std::min(upright, 1.0)) * 180 / std::numbers::pi));
+  return outcome;
+}
+
+/// A low box between two liquids of equal depth, wholly submerged: its mass over that of the liquids that it displaces is 1 where a share
+/// `ratio` of its height is in the heavy one. The expected level of the interface is that of the heavy liquid and of that share.
+Expected<Outcome> draughtBetween(const Bench& bench, double ratio, double spacing) {
+  constexpr double kHeight = kEdge / 2, kHeavy = 1000, kLight = 600;
+  const double deep = ratio * kHeight;
+  Scene scene = pool(spacing, boxAt(kDeep / 2 - deep, std::lerp(kLight, kHeavy, ratio), kHeight));
+  scene.fluids = {{.name = "heavy", .density = kHeavy}, {.name = "light", .density = kLight}};
+  scene.fill = {boxFill({0, 0, 0}, {kWide, kDeep / 2, kWide}), boxFill({0, kDeep / 2, 0}, {kWide, kDeep, kWide})};
+  scene.fill.back().fluid = "light";
+  Outcome outcome;
+  auto samples = follow(bench, scene, 4, 1.0 / 60, outcome);
+  if (!samples) return samples.error();
+  const double middle = lastMean(*samples, [](const Sample& s) { return s.pose.position.y; });
+  const double heavy = double(samples->front().stats.fluids.front().particles) * std::pow(spacing, 3);
+  const double found = (heavy + deep * kEdge * kEdge) / (kWide * kWide) - (middle - kHeight / 2);
+  outcome.figures.push_back({"draught", found, deep, (found - deep) / spacing});
+  const double upright = lastMean(*samples, [](const Sample& s) { return cosineOfTilt(s.pose.rotation); });
   outcome.figures.push_back(plainFigure("tilt", std::acos(std::min(upright, 1.0)) * 180 / std::numbers::pi));
   return outcome;
 }
@@ -182,6 +203,8 @@ std::vector<Experiment> bodyExperiments() {
     };
     for (const auto& [name, ratio] : {std::pair{"0.3", 0.3}, {"0.5", 0.5}, {"0.8", 0.8}})
       add(std::string("draught-") + name, [r = ratio](const Bench& bench, double d) { return draught(bench, r, d); });
+    for (const auto& [name, ratio] : {std::pair{"0.3", 0.3}, {"0.7", 0.7}})
+      add(std::string("draught-between-") + name, [r = ratio](const Bench& bench, double d) { return draughtBetween(bench, r, d); });
     add("righting", righting);
     for (const auto& [name, ratio] : {std::pair{"0.1", 0.1}, {"0.5", 0.5}, {"2", 2.0}})
       add(std::string("released-ball-") + name, [r = ratio](const Bench& bench, double d) { return released(bench, r, d); });
