@@ -48,6 +48,15 @@ double largestKinematicViscosity(const Scene& scene) { return largestOf(scene, k
 
 double smallestKinematicViscosity(const Scene& scene) { return kinematic(std::ranges::min(resolvedFluids(scene), {}, kinematic)); }
 
+double leastDensityDifference(const Scene& scene) {
+  std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  std::ranges::sort(fluids, {}, &ResolvedFluid::density);
+  double least = 1;
+  for (size_t k = 1; k < fluids.size(); ++k)
+    if (fluids[k - 1].density < fluids[k].density) least = std::min(least, 1 - fluids[k - 1].density / fluids[k].density);
+  return least;
+}
+
 double fastestViscosity(const Scene& scene) {
   const double viscosity = largestViscosity(scene);
   return viscosity > 0 ? largestKinematicViscosity(scene) * densestFluid(scene) / viscosity : 0;

@@ -13,6 +13,9 @@ double largestViscosity(const Scene& scene);            ///< Pa s
 double largestKinematicViscosity(const Scene& scene);   ///< m^2/s
 double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s
 
+/// The least difference of two fluids' densities over the larger of them; 1 where all are the same. With gravity it drives flows.
+double leastDensityDifference(const Scene& scene);
+
 /// The largest product of a fluid's inverse mass and viscosity, each over that of the densest and of the most viscous fluid: at least 1 if
 /// any is viscous, else 0. It multiplies FluidParams::viscosityRate.
 double fastestViscosity(const Scene& scene);

@@ -197,6 +197,7 @@ void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup)
   }
   setup.head = columnHead(scene, height);
   p.layerHead = f(setup.limits.layerHead);
+  p.motionShare = f(setup.limits.motionShare);
   p.stableStep = f(setup.limits.stableStep);
   p.toleratedStep = f(std::min(setup.limits.toleratedStep, kLargest));
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/vector_math.hpp"
+#include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
 #include "shared/fluid_records.h"
 #include "sph/jacobi_limit.hpp"
@@ -30,6 +31,10 @@ constexpr double kMaxRegularizationPoly6Spiky = 1, kMaxWarmGainPoly6Spiky = 0.02
 constexpr double kWarmGainAtRest = 1.2, kMaxWarmGainAtRest = 0.005;
 // With this kappa pressure still followed a dam's flow; without one the start's would stay for ever.
 constexpr double kMinFollowing = 0.001;
+
+// motionSpeed over the speed of falling through the column: see docs/notes/noise-damping.md. Between fluids it follows the root of the
+// difference of their densities, which drives them. What is less would take for a flow the noise of a fluid whose noise is not damped.
+constexpr double kMotionShare = 0.5, kMinMotionShare = 0.2;
 
 // How much less error is stable with a warm start: at 0.05 0.0032 held, 0.0036 gained a quarter of energy; at 0.02 0.0036 gained 2.5 %.
 constexpr double kStableGain = 40;
@@ -115,6 +120,7 @@ StabilityLimits stabilityLimits(const Scene& scene, const SmoothingKernel& kerne
   const double tolerance = scene.solver.tolerance;
   limits.toleratedStep = tolerance > 0 ? 0.5 * stepOfError(kernel, tolerance, limits.relaxationAtRest / limits.softness) : kInfinite;
   limits.layerHead = std::max(strongestGravity(scene), 1e-20) * scene.fluid.spacing;
+  limits.motionShare = f(std::max(kMotionShare * std::sqrt(leastDensityDifference(scene)), kMinMotionShare));
   limits.maxWarmGainAtRest = scene.solver.warm_start ? gain : std::min(gain, kMaxWarmGainAtRest);
   limits.layerWarmGainAtRest = scene.solver.warm_start ? kInfinite : kWarmGainAtRest;
   return limits;
@@ -127,7 +133,7 @@ double StabilityLimits::warmGainAtRest(double head) const {
   return std::min(maxWarmGainAtRest, layerWarmGainAtRest / (layers(head) * layers(head)));
 }
 
-double StabilityLimits::motionSpeed(double head) const { return double{kMotionShare} * std::sqrt(2 * head); }
+double StabilityLimits::motionSpeed(double head) const { return motionShare * std::sqrt(2 * head); }
 
 double StabilityLimits::errorRateShareAtRest(double head) const { return 1 / std::max(1.0, double{kErrorSubsteps} * layers(head)); }
 

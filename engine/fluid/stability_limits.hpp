@@ -38,6 +38,7 @@ struct StabilityLimits {
   double stableStep = 0;           ///< m: times 1 / sqrt(head) the longest step
   double toleratedStep = 0;        ///< m: likewise the first step; infinite without a tolerance
   double layerHead = 0;            ///< m^2/s^2, of a column of one layer
+  double motionShare = 0;          ///< motionSpeed() over the speed of falling through the column
   double maxWarmGainAtRest = 0;    ///< kappa at rest, and
   double layerWarmGainAtRest = 0;  ///< this over the square of the column's layers, if that is less
 

@@ -10,7 +10,7 @@ float longestStep(float head) { return min(params.maxStep, params.stableStep / s
 float firstStep(float head) { return min(longestStep(head), params.toleratedStep / sqrt(max(head, 1.0e-30))); }
 
 // m/s of the fastest particle, from which on the fluid is no longer at rest; 0: never at rest
-float motionSpeed(float head) { return kMotionShare * sqrt(2.0 * head); }
+float motionSpeed(float head) { return params.motionShare * sqrt(2.0 * head); }
 
 float columnLayers(float head) { return head / params.layerHead; }
 

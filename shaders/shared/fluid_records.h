@@ -13,8 +13,6 @@ RILL_CONST uint kFluidGroup = 64u;        // invocations a workgroup of every pe
 RILL_CONST uint kCellsPerReach = 2u;       // grid cells in x as long as one in y or z
 RILL_CONST uint kSettleSubsteps = 512u;    // at most, before the first substep in time
 RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the initial pressure, at most, after settling
-// motionSpeed, of the speed of falling through the column: see docs/notes/noise-damping.md
-RILL_CONST float kMotionShare = 0.5f;
 // a layer: substeps in the mean error at rest, and in the mean of the steps that it asks for
 RILL_CONST float kErrorSubsteps = 10.0f;
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // coefficient of noise damping, at most: no wave is turned around below 0.69
@@ -62,6 +60,7 @@ struct FluidParams {
   float maxWarmGainAtRest;     // at most, and
   float layerWarmGainAtRest;   // this over the square of the column's layers
   float layerHead;             // m^2/s^2, gravity times the spacing
+  float motionShare;           // motionSpeed over the speed of falling through the column
   float stableStep;            // m, over the square root of the head: the longest stable step
   float toleratedStep;         // m, likewise: the first step, half of what the tolerance allows
   float columnGravityX, columnGravityY, columnGravityZ;  // m/s^2, the strongest; 0: the head does not follow the fluid along this axis

@@ -173,6 +173,23 @@ TEST_F(FluidsTest, MomentumIsConserved) {
   }
 }
 
+// A flow between fluids is as fast as the difference of their densities makes it; what is slower is at rest.
+TEST_F(FluidsTest, MotionFollowsTheDifferenceOfDensities) {
+  const auto share = [&](const std::vector<double>& densities) {
+    auto run = start(mixture(densities));
+    run->substeps(1);
+    run->snapshot();
+    const FluidControl& c = run->control();
+    const float found = implOf(run->fluid()).setup.params.motionShare;
+    EXPECT_NEAR(c.restFraction, 1 - std::pow(std::min(c.flowSpeed / (found * std::sqrt(2 * c.head)), 1.0f), 4.0f), 1e-5);
+    return found;
+  };
+  EXPECT_EQ(share({1000}), 0.5f);
+  EXPECT_EQ(share({1000, 1000}), 0.5f) << "nothing drives a flow between them";
+  EXPECT_NEAR(share({1000, 750, 1}), 0.25, 1e-6) << "the least difference";
+  EXPECT_NEAR(share({1000, 999}), 0.2, 1e-6) << "not less than noise";
+}
+
 TEST_F(FluidsTest, EqualFluidsEqualOne) {  // but for the last bits of places
   Trial one = mixture({1000, 1000}), two = one;
   one.scene.fluids.clear();

@@ -20,7 +20,7 @@ constexpr std::string_view kReleased =
 
 constexpr std::string_view kLayerPressure = "the probe reads as much too high in a tank of one fluid";
 constexpr std::string_view kLightLayer = "what little pressure moves heavy particles at the interface moves light ones far";
-constexpr std::string_view kShear = "fluids that pass each other lose speed at their interface, which is a few spacings thick";
+constexpr std::string_view kShear = "particles under pressure rub, as at a Reynolds number of some 10: docs/notes/several-fluids.md";
 
 constexpr Band kBands[] = {
     {"martin-moyce-1",
