@@ -179,7 +179,7 @@ Expected<uint64_t> Runner::hash() {
   auto ran = run(measureGraph_, [&](Graph& graph) { tickets = offline::readout(graph, fluid_->addTo(graph, {})); });
   if (!ran) return ran.error();
   const offline::Readout read = offline::collect(measureGraph_, tickets);
-  return offline::stateHash(read.positions, read.velocities, read.ids, fluid_->bodies(), read.fluids);
+  return offline::stateHash(read.positions, read.velocities, read.ids, fluid_->bodies(), read.fluids, read.concentrations);
 }
 
 Expected<FluidSnapshot> Runner::snapshot() {

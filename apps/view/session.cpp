@@ -113,8 +113,8 @@ Expected<void> Session::restart() { return begin(text_, changes_); }
 Expected<void> Session::reload() { return read(changes_); }
 
 bool Session::isLive(std::string_view key) const {
-  constexpr std::string_view kNeedsRestart[] = {"fluid.spacing",         "fluid.particles", "fluid.density",
-                                                "fluid.smoothing_ratio", "solver.kernel",   "solver.neighbors"};
+  constexpr std::string_view kNeedsRestart[] = {"fluid.spacing",         "fluid.particles", "fluid.density",   "fluid.smoothing_ratio",
+                                                "fluid.surface_tension", "solver.kernel",   "solver.neighbors"};
   if (std::ranges::find(kNeedsRestart, key) != std::end(kNeedsRestart)) return false;
   if (const auto solid = bodyOfMass(key)) return *solid < fileSolids_ && scene().solids[*solid].body.has_value();
   if (key == "gravity") return scene().gravity_changes.empty();

@@ -5,6 +5,7 @@
 #include "fluid/fluids.hpp"
 #include "shape/contact_points.hpp"
 #include "shared/region_records.h"
+#include "shared/surface_tension.h"
 #include "sort/dispatches.hpp"
 #include "sort/sort_types.h"
 
@@ -113,6 +114,12 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
        [](const ArrayShape& s) { return s.viscous ? s.particles + 1 : 0; }, Account::Particles},
       {NextConcentration, "nextConcentration", "next concentrations", Section, kVector, concentrations, Account::Particles},
       {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
+      {SolidPlane, "solidPlane", "planes of solids", Fluid, kVector,
+       [](const ArrayShape& s) { return s.tension && s.solids > 0 ? s.particles : 0; }, Account::Particles},
+      {SurfaceSample, "surfaceSample", "samples of the surface", Section, 8,
+       [](const ArrayShape& s) { return s.tension ? kTensionSamples / 4 * s.particles : 0; }, Account::Particles},
+      {Exposed, "exposed", "exposed particles", Section, kWord, [](const ArrayShape& s) { return s.tension ? s.particles + 1 : 0; },
+       Account::Particles},
       {OrderedPosition, "orderedPosition", "ordered positions", Section, kVector, perParticle},
       {Histogram, "histogram", "error histogram", Section, kWord, [](const ArrayShape&) { return uint64_t{3 * kMeasureBins}; }},
       {Partials, "partials", "partial sums", Section, sizeof(MeasurePartial), [](const ArrayShape&) { return uint64_t{kMeasurePartials}; }},
@@ -170,6 +177,7 @@ ArrayShape arrayShape(const FluidSetup& setup) {
           .smooths = p.noiseDampingRate > 0,
           .viscous = p.viscosityRate > 0,
           .vorticity = p.vorticity > 0,
+          .tension = p.tensionRate > 0,
           .loads = setup.loads,
           .noSlipSolids = setup.noSlipSolids,
           .noSlipBodies = setup.noSlipBodies,
@@ -180,7 +188,7 @@ ArrayShape arrayShape(const FluidSetup& setup) {
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
   const bool lists = scene.solver.neighbors != NeighborChoice::Grid;
   const uint64_t cells = maxGridCells(particles);
-  const uint64_t capacity = lists ? listCapacity(scene.fluid.smoothing_ratio + kListSkin, hasWalls(scene)) : 0;
+  const uint64_t capacity = lists ? listCapacity(listReach(scene), hasWalls(scene)) : 0;
   return {.particles = particles,
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
           .cellStarts = (scene.solver.sleep ? 2 : 1) * cells + 1 + uint64_t{removes(scene)},
@@ -195,6 +203,7 @@ ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
           .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,
           .viscous = largestViscosity(scene) > 0,
           .vorticity = scene.fluid.vorticity > 0,
+          .tension = largestTension(scene) > 0,
           .loads = !scene.solids.empty(),  // a host may ask for them
           .noSlipSolids = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid); }),
           .noSlipBodies = std::ranges::any_of(scene.solids, [&](const Solid& solid) { return sticks(scene, solid) && solid.body; }),

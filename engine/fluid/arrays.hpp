@@ -76,6 +76,9 @@ enum class FluidArray : uint8_t {
   NextDirection,
   NextConcentration,
   Curl,
+  SolidPlane,
+  SurfaceSample,
+  Exposed,
   OrderedPosition,
   Histogram,
   Partials,
@@ -106,7 +109,7 @@ struct ArrayShape {
   uint64_t cellStarts = 0;   ///< entries
   uint64_t fluids = 1, gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
            mouthPoints = 0, drains = 0, regions = 0, meshWords = 0, keyframes = 0;
-  bool lists = true, warm = false, multipliers = false, smooths = false, viscous = false, vorticity = false, loads = false,
+  bool lists = true, warm = false, multipliers = false, smooths = false, viscous = false, vorticity = false, tension = false, loads = false,
        noSlipSolids = false, noSlipBodies = false, removes = false, diffuses = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);

@@ -13,6 +13,7 @@
 #include "fluid/snapshot.hpp"
 #include "gpu/device_impl.hpp"
 #include "gpu/texel_reads.hpp"
+#include "shared/surface_tension.h"
 
 namespace rill {
 namespace {
@@ -124,8 +125,9 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
   assert(chunks_.size() <= kMaxListChunks);  // checkRoom()
-  const uint64_t maxTexels = std::max({more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(keyRange(setup) + 1),
-                                       uint64_t{setup.tables.size() / 4}, uint64_t{setup.meshWords.size()}});
+  const uint64_t maxTexels =
+      std::max({p.tensionRate > 0 ? kTensionSamples / 4 * n : more, more, uint64_t{chunk} * p.listCapacity / 4,
+                paddedWords(keyRange(setup) + 1), uint64_t{setup.tables.size() / 4}, uint64_t{setup.meshWords.size()}});
   texel_ = !storageReads && usesTexelReads(device, maxTexels);
 
   auto sort = KeySort::create(

@@ -157,6 +157,7 @@ class FluidImpl {
   void declareForces(Graph& graph, bool first);
   void declareViscosity(Graph& graph);
   void declareNoSlip(Graph& graph);
+  void declareTension(Graph& graph);
   void declareNoiseDamping(Graph& graph);
   void declareDiffusion(Graph& graph);
   // measure_passes.cpp

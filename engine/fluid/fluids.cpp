@@ -30,6 +30,9 @@ constexpr std::array<float FluidParams::*, kMaxFluids> kInverseMasses{
 constexpr std::array<float FluidParams::*, kMaxFluids> kViscosities{
     &FluidParams::viscosity0, &FluidParams::viscosity1, &FluidParams::viscosity2, &FluidParams::viscosity3,
     &FluidParams::viscosity4, &FluidParams::viscosity5, &FluidParams::viscosity6, &FluidParams::viscosity7};
+constexpr std::array<float FluidParams::*, kMaxFluids> kTensions{&FluidParams::tension0, &FluidParams::tension1, &FluidParams::tension2,
+                                                                 &FluidParams::tension3, &FluidParams::tension4, &FluidParams::tension5,
+                                                                 &FluidParams::tension6, &FluidParams::tension7};
 
 constexpr std::array<uint32_t FluidParams::*, kMaxDiffusing> kDiffusing{&FluidParams::diffusing0, &FluidParams::diffusing1,
                                                                         &FluidParams::diffusing2, &FluidParams::diffusing3};
@@ -57,6 +60,14 @@ double leastDensityDifference(const Scene& scene) {
   return least;
 }
 
+double largestTension(const Scene& scene) {
+  return largestOf(scene, [](const ResolvedFluid& fluid) { return fluid.surfaceTension; });
+}
+
+double largestKinematicTension(const Scene& scene) {
+  return largestOf(scene, [](const ResolvedFluid& fluid) { return fluid.surfaceTension / fluid.density; });
+}
+
 double fastestViscosity(const Scene& scene) {
   const double viscosity = largestViscosity(scene);
   return viscosity > 0 ? largestKinematicViscosity(scene) * densestFluid(scene) / viscosity : 0;
@@ -70,7 +81,7 @@ Float4 unmixed(const FluidParams& params, uint8_t fluid) {
 void addFluids(const Scene& scene, FluidSetup& setup) {
   if (scene.fluids.size() < 2) return;
   const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
-  const double densest = densestFluid(scene), viscosity = largestViscosity(scene);
+  const double densest = densestFluid(scene), viscosity = largestViscosity(scene), tension = largestTension(scene);
   setup.fluids = static_cast<uint32_t>(fluids.size());
   for (size_t k = 0; k < fluids.size(); ++k) {
     const double ratio = densest / fluids[k].density;
@@ -80,6 +91,7 @@ void addFluids(const Scene& scene, FluidSetup& setup) {
                                roundedNumber(ratio) + " times less than the densest fluid; expected at most " +
                                roundedNumber(kMaxDensityRatio) + " times; it is simulated with this ratio");
     setup.params.*kViscosities[k] = viscosity > 0 ? f(fluids[k].viscosity / viscosity) : 0;
+    setup.params.*kTensions[k] = tension > 0 ? f(fluids[k].surfaceTension / tension) : 0;
   }
   for (const auto index : kDiffusing) setup.params.*index = kNoFluid;
   const std::vector<size_t> diffusing = diffusingFluids(scene);

@@ -12,6 +12,8 @@ double densestFluid(const Scene& scene);                ///< kg/m^3
 double largestViscosity(const Scene& scene);            ///< Pa s
 double largestKinematicViscosity(const Scene& scene);   ///< m^2/s
 double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s
+double largestTension(const Scene& scene);              ///< surface tension, N/m
+double largestKinematicTension(const Scene& scene);     ///< surface tension over density, m^3/s^2
 
 /// The least difference of two fluids' densities over the larger of them; 1 where all are the same. With gravity it drives flows.
 double leastDensityDifference(const Scene& scene);

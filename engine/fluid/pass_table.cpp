@@ -23,6 +23,8 @@ bool noSlipAfterwards(const FluidSetup& s) { return s.noSlipBodies || (s.noSlipS
 bool noSlipLoads(const FluidSetup& s) { return s.noSlipSolids && s.loads; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
+bool tense(const FluidSetup& s) { return s.params.tensionRate > 0; }
+bool tenseAtSolids(const FluidSetup& s) { return tense(s) && solids(s); }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
 bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
@@ -38,8 +40,8 @@ constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no
     kLoads{loads, "no loads asked for, and no bodies"}, kProbesPressure{probesPressure, "no probes of pressure"},
     kEmits{emits, "no emitters"}, kDrainsFluid{drains, "no drains, and no open sides that remove"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
-    kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kDrags{drags, "drag is 0"},
-    kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep},
+    kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kTense{tense, "surface tension is 0"},
+    kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep},
     kRegions{regions, nullptr, &FluidSetup::whyNoRegions}, kFluids{several, "one fluid"}, kDiffuses{diffuses, "no fluid diffuses"};
 
 using P = FluidPass;
@@ -107,6 +109,9 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Curl, "curl", "fluid/curl", E::Gather, kEnd, kSwirls, kForce},
     {P::Confine, "confine", "fluid/confine", E::Gather, kEnd, kSwirls, kForce},
     {P::Drag, "drag", "fluid/drag", E::Particles, kEnd, kDrags, kForce},
+    {P::SurfacePlanes, "planes of solids", "fluid/surface_planes", E::NearSolids, kEnd, {tenseAtSolids}},
+    {P::SurfaceSamples, "surface samples", "fluid/surface_samples", E::Gather, kEnd, kTense},
+    {P::SurfaceTension, "surface tension", "fluid/surface_tension", E::Gather, kEnd, {tense}},
     {P::PredictAfterForces, "predict after forces", "fluid/predict", E::Particles, kEndOrDamped, {forcesOrDamping}},
     {P::PredictAtSolids, "predict at solids", "fluid/predict", E::NearSolids, kEndOrDamped, {forcesOrDampingAtSolids}},
     {P::KeepMouthsFree, "keep mouths free", "fluid/mouths", E::Particles, kEnd, {emits}},
@@ -126,7 +131,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
 std::span<const FluidPassRow, kFluidPasses> fluidPassTable() { return kPassTable; }
 
 bool hasForces(const FluidSetup& setup) {
-  if (viscous(setup)) return true;
+  if (viscous(setup) || tense(setup)) return true;
   for (const FluidPassRow& row : kPassTable)
     if (row.options.force && row.condition.holds(setup)) return true;
   return false;

@@ -12,8 +12,10 @@
 #include "fluid/numbers.hpp"
 #include "fluid/sleep.hpp"
 #include "fluid/stability_limits.hpp"
+#include "fluid/tension.hpp"
 #include "shape/pose.hpp"
 #include "shared/diffusion_steps.h"
+#include "shared/surface_tension.h"
 #include "shared/viscosity_steps.h"
 #include "sph/artificial_pressure.hpp"
 #include "sph/diffusion.hpp"
@@ -59,15 +61,6 @@ uint32_t substepsPerBlock(const SolverSettings& solver) {
 // XSPH coefficient a second that a dynamic viscosity (Pa s) asks for.
 double xsphRate(double viscosity, const Scene& scene, const SmoothingKernel& kernel) {
   return 2 * viscosity / (densestFluid(scene) * kernel.secondMoment());
-}
-
-// `why` asks for substeps of at most `longest` seconds.
-void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
-  const double all = longest * setup.params.maxSubsteps;
-  if (all >= 1.0 / 60) return;
-  setup.warnings.push_back(why + " needs substeps of at most " + roundedNumber(longest) +
-                           " s: " + std::to_string(setup.params.maxSubsteps) + " of them are " + roundedNumber(all) +
-                           " s, less than a frame of 1/60 s; time will be dropped");
 }
 
 void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
@@ -282,6 +275,9 @@ void setGravity(const Scene& scene, FluidSetup& setup) {
   setup.params.gravityChanges = static_cast<uint32_t>(setup.gravity.size() / 4);
 }
 
+/// Spacings from a particle to those that the samples around it act on; 0 without surface tension.
+double reachOfTension(const Scene& scene) { return largestTension(scene) > 0 ? double{kTensionReach} : 0; }
+
 /// Whether a solid can hold the fluid up; bodies fall with it.
 bool holdsFluid(const Scene& scene) { return scene.solids.size() > bodyCount(scene); }
 
@@ -330,6 +326,16 @@ size_t pressureProbeCount(const Scene& scene) {
 
 bool startsWarm(const Scene& scene) { return boundedWarmGain(scene).wanted > 0; }
 
+void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
+  const double all = longest * setup.params.maxSubsteps;
+  if (all >= 1.0 / 60) return;
+  setup.warnings.push_back(why + " needs substeps of at most " + roundedNumber(longest) +
+                           " s: " + std::to_string(setup.params.maxSubsteps) + " of them are " + roundedNumber(all) +
+                           " s, less than a frame of 1/60 s; time will be dropped");
+}
+
+double listReach(const Scene& scene) { return std::max(scene.fluid.smoothing_ratio, reachOfTension(scene)) + kListSkin; }
+
 uint32_t listCapacity(double reachInSpacings, bool walls) {
   constexpr double kMaxReach = 5;  // spacings: more than any scene has that is allowed
   const double reach = std::fmin(std::fmax(reachInSpacings, 0), kMaxReach);
@@ -364,10 +370,10 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setRegularization(scene, kernel, setup);
   setRelaxation(setup);
   p.warmRelease = f(kWarmRelease);
-  p.reach = f(h + kListSkin * d);
+  p.reach = f(std::max(h, reachOfTension(scene) * d) + kListSkin * d);
   p.travelLimit = f(kTravel * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
-  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity((h + kListSkin * d) / d, hasWalls(scene)) : 0u;
+  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), hasWalls(scene)) : 0u;
   setCfl(scene, setup);
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error at which the fluid is unstable.
@@ -376,7 +382,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.maxStep = f(scene.solver.time_step.value_or(1.0 / 60));
   p.particleMass = f(densestFluid(scene) * d * d * d);
   p.farLimit = f(kFarSpacings * d);
-  p.nearLimit = f(solidReach(kernel) + (kTravel + 0.2) * d);
+  p.nearLimit = f(std::max(solidReach(kernel), reachOfTension(scene) > 0 ? (double{kTensionRadius} + 1) * d : 0) + (kTravel + 0.2) * d);
   p.solidSpeed = f(fastestSolid(scene));
   p.loadLever = f(loadLever(scene, h));
   p.vorticity = f(scene.fluid.vorticity);
@@ -403,6 +409,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setup.removes = removes(scene);
   p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
   addFluids(scene, setup);
+  addTension(scene, setup);
   setViscosity(scene, kernel, setup);
   setNoSlip(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);

@@ -16,7 +16,7 @@
 
 namespace rill {
 
-/// Spacings beyond the support that the list reaches.
+/// Spacings beyond the support, or the reach of surface tension, that the list reaches.
 inline constexpr double kListSkin = 0.1;
 
 /// Floats of a KeyframeRecord.
@@ -142,6 +142,12 @@ double artificialViscosity(const Scene& scene);
 /// Entries that the list holds a particle, a multiple of 4: of the neighbors that a lattice compressed by a fifth puts within the reach,
 /// and where there are walls of what segments take.
 uint32_t listCapacity(double reachInSpacings, bool walls);
+
+/// Warns if substeps of at most `longest` seconds, which `why` asks for, are too short for frames of 1/60 s.
+void warnOfDropping(const std::string& why, double longest, FluidSetup& setup);
+
+/// How far the neighbor list reaches, in spacings.
+double listReach(const Scene& scene);
 
 constexpr uint32_t kListEntryBytes = 2;
 

@@ -43,6 +43,7 @@ double regionEdge(const FluidSetup& setup) { return double{setup.params.reach} *
 std::string whyNoRegions(const Double3& room, const FluidSetup& setup) {
   if (setup.params.sleeps == 0) return setup.whyNoSleep;
   if (!setup.warm) return "without a warm start the forces on fluid at rest are not known";
+  if (setup.params.tensionRate > 0) return "a surface with tension moves as a whole";
   if (std::max({room[0], room[1], room[2]}) < kLeastRegions * regionEdge(setup)) return "the room is too small to be divided";
   return {};
 }

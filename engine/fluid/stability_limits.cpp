@@ -159,9 +159,10 @@ SpeedLimits speedLimits(const Scene& scene, const Double3& extent, double fastes
   Double3 room;
   const bool closed = scene.domain && scene.domain->open == 0;
   for (int a = 0; a < 3; ++a) room[a] = std::max(extent[a], scene.domain ? scene.domain->max[a] - scene.domain->min[a] : 0);
-  const double usual = std::sqrt(2 * columnHead(scene, room) + fastest * fastest) + solids;
+  const double capillary = std::sqrt(largestKinematicTension(scene) / scene.fluid.spacing);  // what tension adds in the longest step
+  const double usual = std::sqrt(2 * columnHead(scene, room) + fastest * fastest) + solids + 2 * capillary;
   constexpr double kUnbounded = 1e18;  // m/s: through an open side fluid may fall any distance
-  return {kWarmLimit * usual * usual, kMinSpeedGain * usual, closed ? kMaxSpeedGain * usual : kUnbounded,
+  return {kWarmLimit * usual * usual, kMinSpeedGain * usual + capillary, closed ? kMaxSpeedGain * usual + capillary : kUnbounded,
           closed ? kSpeedLimit * usual : kUnbounded};
 }
 

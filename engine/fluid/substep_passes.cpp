@@ -63,6 +63,7 @@ void FluidImpl::declareForces(Graph& graph, bool first) {
     else
       declare(graph, row.id, Start::Correct);
   }
+  if (exists(FluidPass::SurfaceTension, setup)) declareTension(graph);
   if (!first && !hasForces(setup)) return;
   const Start start = hasForces(setup) ? Start::Correct : Start::NoiseDamping;
   declare(graph, FluidPass::PredictAfterForces, start);
@@ -91,6 +92,16 @@ void FluidImpl::declareNoSlip(Graph& graph) {
   declare(graph, FluidPass::NoSlipBodies, Start::Correct);
   declare(graph, FluidPass::NoSlip, Start::Correct);
   declare(graph, FluidPass::NoSlipLoads, Start::Correct, LoadPush{1});
+}
+
+// By the positions at the end of the substep.
+void FluidImpl::declareTension(Graph& graph) {
+  using enum FluidArray;
+  declare(graph, FluidPass::SurfacePlanes, Start::Correct);
+  alias(Particle, Position);
+  declare(graph, FluidPass::SurfaceSamples, Start::Correct, ChunkPush{});
+  declare(graph, FluidPass::SurfaceTension, Start::Correct, ChunkPush{});
+  alias(Particle, Work);
 }
 
 void FluidImpl::declareNoiseDamping(Graph& graph) {

@@ -5,13 +5,15 @@
 namespace rill {
 
 std::vector<ResolvedFluid> resolvedFluids(const Scene& scene) {
-  const ResolvedFluid common{.density = scene.fluid.density, .viscosity = scene.fluid.viscosity};
+  const ResolvedFluid common{
+      .density = scene.fluid.density, .viscosity = scene.fluid.viscosity, .surfaceTension = scene.fluid.surface_tension};
   if (scene.fluids.empty()) return {common};
   std::vector<ResolvedFluid> fluids;
   for (const FluidMaterial& material : scene.fluids)
     fluids.push_back({.name = material.name,
                       .density = material.density.value_or(common.density),
                       .viscosity = material.viscosity.value_or(common.viscosity),
+                      .surfaceTension = material.surface_tension.value_or(common.surfaceTension),
                       .color = material.color,
                       .diffusion = material.diffusion});
   return fluids;

@@ -1,5 +1,8 @@
 #include "reference/scene_settings.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include "fluid/fluids.hpp"
 #include "fluid/stability_limits.hpp"
 
@@ -13,7 +16,8 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.density = densestFluid(scene);
   if (!scene.fluids.empty())
     for (const ResolvedFluid& fluid : resolvedFluids(scene))
-      s.fluids.push_back({.density = fluid.density, .viscosity = fluid.viscosity, .diffusion = fluid.diffusion});
+      s.fluids.push_back(
+          {.density = fluid.density, .viscosity = fluid.viscosity, .surfaceTension = fluid.surfaceTension, .diffusion = fluid.diffusion});
   s.origin = vec(origin);
   for (int a = 0; a < 3; ++a) {
     s.gravity[a] = scene.gravity[a];
@@ -47,6 +51,8 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.viscosityAtRest = setup.artificialViscosity;
   s.substepsPerBlock = static_cast<int>(setup.substepsPerBlock);
   s.vorticity = scene.fluid.vorticity;
+  s.surfaceTension = largestTension(scene);
+  s.wettingCosine = setup.params.tensionRate > 0 ? std::cos(scene.fluid.contact_angle * std::numbers::pi / 180) : 0;
   s.drag = scene.fluid.drag;
   s.separationSpeed = setup.params.separationSpeed;
   s.minSpeedGain = setup.params.minSpeedGain;

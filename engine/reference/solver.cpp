@@ -155,6 +155,10 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     drag(dt);
     done(Stage::Drag);
   }
+  if (settings.surfaceTension > 0) {
+    surfaceTension(dt);
+    done(Stage::SurfaceTension);
+  }
   predict(dt, dtNext);
   done(Stage::Prediction);
 }

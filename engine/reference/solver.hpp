@@ -14,7 +14,8 @@
 //   correction    x*_i += m_i^-1 (sum_j a_ij (dlambda_i + dlambda_j + s_ij) G_ij + dlambda_i grad B_i), then projected out of solids
 //                 and walls
 //   velocities    v = (x* - x) / dt, contact with solids, |v| <= the limit, x = x*
-//   viscosity     an implicit step, and noise damping of slow fluid;  diffusion   of concentrations;  vorticity   confinement;  drag linear
+//   viscosity     an implicit step, and noise damping of slow fluid;  diffusion   of concentrations;  vorticity   confinement
+//   drag          linear;  tension   of the surface
 //   predict       w_i *= (dt_next/dt)^2,
 //                 x*_i = x_i + dt_next (v_i + g dt_next) + m_i^-1 (sum_j a_ij (w_i + w_j) G_ij + w_i grad B_i), then projected out of
 //                 solids and walls
@@ -59,9 +60,10 @@ inline constexpr double kMinDenominator = 1e-6;
 
 /// One of several fluids.
 struct ReferenceFluid {
-  double density = 1000;  ///< kg/m^3, > 0
-  double viscosity = 0;   ///< Pa s, >= 0
-  double diffusion = 0;   ///< m^2/s, >= 0, in the others
+  double density = 1000;      ///< kg/m^3, > 0
+  double viscosity = 0;       ///< Pa s, >= 0
+  double surfaceTension = 0;  ///< against air, N/m, >= 0
+  double diffusion = 0;       ///< m^2/s, >= 0, in the others
 };
 
 /// All coefficients, explicitly; there is no "auto".
@@ -105,6 +107,8 @@ struct ReferenceSettings {
   int diffusionStages = 0;                                      ///< of a step, at most, as the shaders take them; 0: very short steps
   bool noSlipWalls = false;                                     ///< viscous fluid sticks to the walls
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
+  double surfaceTension = 0;                                    ///< against air, N/m, >= 0; of one fluid
+  double wettingCosine = 0;                                     ///< cosine of the contact angle
   double drag = 0;                                              ///< 1/s
   double separationSpeed = 0;                                   ///< m/s, at which bodies that overlap come apart, at most
   std::vector<Pull> pulls;                                      ///< of bodies, from the next prediction on
@@ -117,7 +121,19 @@ struct ReferenceSettings {
 };
 
 /// What a substep does in turn. Pressure is Density, Multipliers and Correction, for every iteration.
-enum class Stage { Density, Multipliers, Correction, Velocities, Viscosity, NoiseDamping, Diffusion, Vorticity, Drag, Prediction };
+enum class Stage {
+  Density,
+  Multipliers,
+  Correction,
+  Velocities,
+  Viscosity,
+  NoiseDamping,
+  Diffusion,
+  Vorticity,
+  Drag,
+  SurfaceTension,
+  Prediction
+};
 
 class ReferenceSolver {
  public:
@@ -170,6 +186,8 @@ class ReferenceSolver {
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
   ///   N = eta / (|eta| + 0.001 |omega| / h).
   void vorticity(double dt);
+  void surfaceTension(double dt);          ///< v: sph/surface_tension.hpp, at the positions x
+  double surfaceEnergy() const;            ///< its energy, J
   void drag(double dt);                    ///< v: dv/dt = -drag v
   void predict(double dt, double dtNext);  ///< w, x*
 
@@ -234,7 +252,17 @@ class ReferenceSolver {
   void updateRestFactor();
   /// sum_j diffusionWeight (c_j - c_i)
   std::vector<double> exchange(const std::vector<double>& c) const;
-  double diffusionRow() const;                                                     ///< the largest sum over j of diffusionWeight
+  double diffusionRow() const;  ///< the largest sum over j of diffusionWeight
+  /// A point at a particle that is not covered.
+  struct SurfaceSample {
+    uint32_t particle;
+    glm::dvec3 offset;       ///< of the point, m
+    double open;             ///< 1 - c
+    double weight;           ///< w
+    glm::dvec3 weightSlope;  ///< its gradient, times the spacing
+  };
+  std::vector<SurfaceSample> surfaceSamples() const;
+  double tensionOf(size_t i) const;                                                ///< N/m
   double pairViscosity(size_t i, size_t j) const;                                  ///< over settings.viscosity: the harmonic mean
   double densityScale() const;                                                     ///< factor on the fluid's part of the density
   std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)

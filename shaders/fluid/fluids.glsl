@@ -52,6 +52,14 @@ vec4 unmixed(uint fluid) {
   return vec4(equal(uvec4(fluid), uvec4(params.diffusing0, params.diffusing1, params.diffusing2, params.diffusing3)));
 }
 
+// Surface tension over the largest.
+float tensionOf(uint fluid) {
+  if (!FLUIDS) return 1.0;
+  vec4 first = vec4(params.tension0, params.tension1, params.tension2, params.tension3);
+  vec4 others = vec4(params.tension4, params.tension5, params.tension6, params.tension7);
+  return fluid < 4u ? first[fluid] : others[fluid & 3u];
+}
+
 // Of a pair of particles: the harmonic mean, by which the shear stress is continuous.
 float pairViscosity(uint a, uint b) {
   if (!FLUIDS) return 1.0;

@@ -84,6 +84,10 @@ struct FluidParams {
   float viscosityRate;    // of the force of pairs a second of step, 1/s: see engine/sph/viscosity.hpp
   uint viscositySteps;    // of the solve for viscosity, at most
   float noiseDampingRate;      // coefficient of noise damping a second of block, in a fluid at rest, 1/s
+  float tensionRate;      // 1/s^2, of the force of a sample of the surface on a particle: see engine/sph/surface_tension.hpp
+  float tensionWall;      // m/s^2, the same where the sample's weight changes by 1 in a spacing
+  float wettingCosine;    // of the contact angle
+  uint deepNeighbors;     // entries of the list that a particle away from any surface has at least
   float vorticity;        // dimensionless
   float drag;             // 1/s
   // artificial pressure, 1/s^2: times the square of the step it is a multiplier over 1 / D of the
@@ -126,6 +130,8 @@ struct FluidParams {
   float diffusionRate0, diffusionRate1, diffusionRate2, diffusionRate3;
   float maxDiffusionRate;
   uint diffusionStages;   // of a step of diffusion, at most: 1 or even
+  // Surface tension of each fluid over the largest.
+  float tension0, tension1, tension2, tension3, tension4, tension5, tension6, tension7;
 };
 RILL_CONST uint kNoFluid = 0xFFFFFFFFu;
 

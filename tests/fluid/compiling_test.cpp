@@ -32,6 +32,7 @@ class CompilingTest : public ::testing::Test {
     scene.fluid.spacing = 0.1;
     scene.fluid.viscosity = 1;
     scene.fluid.vorticity = 0.5;
+    scene.fluid.surface_tension = 0.5;
     scene.fluid.drag = 1;
     scene.solver.iterations = 2;
     scene.domain = Domain{};

@@ -74,6 +74,7 @@ TEST_F(DeterminismTest, RepeatedRunsWithForcesAreEqual) {
   t.scene.solver.iterations = 3;
   t.scene.fluid.viscosity = 5;
   t.scene.fluid.vorticity = 0.3;
+  t.scene.fluid.surface_tension = 0.5;
   t.scene.fluid.tensile = 0.5;
   t.scene.solids = {ball({0.55, 0.15, 0.1875}, 0.1)};
   t.scene.solids[0].friction = 0.3;

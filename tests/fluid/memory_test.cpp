@@ -195,6 +195,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, FluidMemoryTest,
                                            Case{"Grid", 100000, [](Scene& s) { s.solver.neighbors = NeighborChoice::Grid; }},
                                            Case{"Iterations", 100000, [](Scene& s) { s.solver.iterations = 4; }},
                                            Case{"Forces", 100000, [](Scene& s) { s.fluid.viscosity = 1, s.fluid.vorticity = 0.5; }},
+                                           Case{"SurfaceTension", 100000, [](Scene& s) { s.fluid.surface_tension = 0.07; }},
                                            Case{"WideSupport", 50000, [](Scene& s) { s.fluid.smoothing_ratio = 3; }},
                                            Case{"SeveralLists", 700000, [](Scene& s) { s.domain.reset(); }}),
                          [](const auto& c) { return c.param.name; });

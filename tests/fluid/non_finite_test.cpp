@@ -70,6 +70,7 @@ TEST_F(NonFiniteTest, DoesNotChangeOtherParticlesWithForces) {
   t.scene.solver.iterations = 3;
   t.scene.fluid.viscosity = 10;
   t.scene.fluid.vorticity = 0.3;
+  t.scene.fluid.surface_tension = 0.5;
   t.scene.fluid.tensile = 0.5;
   t.scene.solids = {ball({0.2, 0.7, 0.2}, 0.15)};
   auto run = start(t), clean = start(without(t, broken));

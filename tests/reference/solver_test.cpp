@@ -61,7 +61,7 @@ TEST(ReferenceSolver, ReportsStagesInOrder) {
   ReferenceSettings s;
   s.spacing = kTankSpacing;
   s.iterations = 2;
-  s.viscosity = s.drag = s.vorticity = 0.1;
+  s.viscosity = s.drag = s.vorticity = s.surfaceTension = 0.1;
   s.motionSpeed = 1;
   s.viscosityAtRest = 1;
   s.tensile = 1;
@@ -73,7 +73,7 @@ TEST(ReferenceSolver, ReportsStagesInOrder) {
   solver.substep(1e-3, 1e-3);
   EXPECT_EQ(stages, (std::vector<Stage>{Stage::Density, Stage::Multipliers, Stage::Correction, Stage::Density, Stage::Multipliers,
                                         Stage::Correction, Stage::Velocities, Stage::Viscosity, Stage::NoiseDamping, Stage::Vorticity,
-                                        Stage::Drag, Stage::Prediction}));
+                                        Stage::Drag, Stage::SurfaceTension, Stage::Prediction}));
   EXPECT_GT(solver.artificialPressurePush(), 0) << "the last correction has artificial pressure";
 }
 

@@ -74,6 +74,8 @@ struct FluidSettings {
   double density = 1000;         ///< rest density, kg/m^3, > 0
   double smoothing_ratio = 2.3;  ///< smoothing length (support radius of the kernel) over spacing, 1.2 .. 4
   double viscosity = 0;          ///< dynamic viscosity, Pa s, >= 0
+  double surface_tension = 0;    ///< against air, N/m, >= 0; 0: none
+  double contact_angle = 90;     ///< of its surface with walls and solids, through the fluid, degrees, 0 .. 180
   double vorticity = 0;          ///< strength of vorticity confinement (Macklin and Mueller 2013, eq. 16), 0 .. 1
   double drag = 0;               ///< linear drag against air at rest, 1/s, >= 0: dv/dt = -drag v
   double tensile = 1;            ///< strength of the artificial pressure s_corr (eq. 13), 0 .. 1
@@ -85,11 +87,12 @@ struct FluidSettings {
 
 /// One of several fluids. All have the same spacing, so that the mass of their particles follows from their densities.
 struct FluidMaterial {
-  std::string name = {};                 ///< unique among fluids, not empty
-  std::optional<double> density = {};    ///< rest density, kg/m^3, > 0; empty: that of FluidSettings
-  std::optional<double> viscosity = {};  ///< dynamic viscosity, Pa s, >= 0; empty: that of FluidSettings
-  std::optional<Double3> color = {};     ///< of the light that 10 cm of it let through, linear RGB, 0 .. 1; empty: that of the look
-  double diffusion = 0;                  ///< diffusivity of it in the other fluids, m^2/s, >= 0; above 0 in at most kMaxDiffusing fluids
+  std::string name = {};                       ///< unique among fluids, not empty
+  std::optional<double> density = {};          ///< rest density, kg/m^3, > 0; empty: that of FluidSettings
+  std::optional<double> viscosity = {};        ///< dynamic viscosity, Pa s, >= 0; empty: that of FluidSettings
+  std::optional<double> surface_tension = {};  ///< against air, N/m, >= 0; empty: that of FluidSettings
+  std::optional<Double3> color = {};           ///< of the light that 10 cm of it let through, linear RGB, 0 .. 1; empty: that of the look
+  double diffusion = 0;  ///< diffusivity of it in the other fluids, m^2/s, >= 0; above 0 in at most kMaxDiffusing fluids
 };
 
 /// Accuracy and cost of the solver. Empty optionals mean "auto".
@@ -265,6 +268,7 @@ struct ResolvedFluid {
   std::string name = "fluid";
   double density = 1000;              ///< kg/m^3
   double viscosity = 0;               ///< Pa s
+  double surfaceTension = 0;          ///< N/m, against air
   std::optional<Double3> color = {};  ///< as FluidMaterial::color
   double diffusion = 0;               ///< m^2/s
 };

@@ -1,0 +1,20 @@
+// Constants of the samples of a surface. Lengths are in spacings. See engine/sph/surface_tension.hpp.
+#ifndef RILL_SURFACE_TENSION_H
+#define RILL_SURFACE_TENSION_H
+#include "shared/interop.h"
+RILL_RECORDS_BEGIN
+
+RILL_CONST uint kTensionSamples = 20u;
+RILL_CONST float kTensionRadius = 1.2f;       // r, from a particle to its samples
+RILL_CONST float kTensionSupport = 2.0f;      // s, from a sample to the particles that cover it
+RILL_CONST float kTensionAmplitude = 0.25f;   // C
+RILL_CONST float kTensionCalibration = 0.36f;  // a
+RILL_CONST float kTensionReach = 3.2f;        // r + s
+
+// Coordinates of the corners of a dodecahedron: 1 / sqrt(3), and that over and times the golden ratio.
+RILL_CONST float kTensionA = 0.57735026919f;
+RILL_CONST float kTensionB = 0.35682208977f;
+RILL_CONST float kTensionC = 0.93417235896f;
+
+RILL_RECORDS_END
+#endif

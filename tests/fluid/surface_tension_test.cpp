@@ -1,0 +1,118 @@
+// Surface tension on the device: substeps against the reference, and momentum.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fluid/rig.hpp"
+
+namespace rill::test {
+namespace surface_tension_test {
+
+using SurfaceTensionTest = FluidTest;
+
+constexpr double kTensionOne = 3e-4, kTensionTen = 2e-3, kTensionAgeing = 0.1;  // spacings; samples travel as halves
+
+Trial withTension(double contactAngle = 90) {
+  Trial t = trial();
+  t.scene.fluid.surface_tension = 200;
+  t.scene.fluid.contact_angle = contactAngle;
+  return t;
+}
+
+TEST_F(SurfaceTensionTest, CloudMatchesReference) {
+  Trial t = withTension();
+  t.x = cloud(400, 7.4 * t.d(), 11);
+  t.v = cloud(400, 1.0, 12, glm::dvec3(-0.5));
+  expectEqual(t, 1, kTensionOne, kTensionOne, 0.001);  // full lists are taken for those of particles away from holes
+}
+
+TEST_F(SurfaceTensionTest, BlockMatchesReference) {
+  Trial t = withTension();
+  t.x = block({9, 9, 9}, t.d(), {}, 0.1);
+  expectEqual(t, 1, kTensionOne, kTensionOne);
+  expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
+}
+
+TEST_F(SurfaceTensionTest, BlockInACornerMatchesReference) {
+  for (const double angle : {0.0, 60.0, 150.0}) {
+    SCOPED_TRACE(angle);
+    Trial t = withTension(angle);
+    setWalls(t, {1, 1, 1});
+    t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+    t.v = cloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
+    expectEqual(t, 1, kTensionOne, kTensionOne);
+    expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
+  }
+}
+
+TEST_F(SurfaceTensionTest, SolidsMatchReference) {
+  for (const double ratio : {2.3, 1.8}) {
+    SCOPED_TRACE(ratio);
+    Trial t = withTension(30);
+    t.scene.fluid.smoothing_ratio = ratio;
+    t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9}), ball({0.5, 0.5, 0.5}, 0.12)};
+    addOutsideSolids(t, block({7, 5, 7}, t.d(), {0.2, 0.26, 0.25}, 0.05));
+    expectEqual(t, 1, kTensionOne, kTensionOne);
+    expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
+  }
+}
+
+TEST_F(SurfaceTensionTest, SeveralFluidsMatchReference) {
+  Trial t = withTension();
+  t.scene.fluids = {{.name = "water", .surface_tension = 100}, {.name = "oil", .density = 500}, {.name = "none", .surface_tension = 0}};
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  for (size_t i = 0; i < t.x.size(); ++i) t.fluids.push_back(static_cast<uint8_t>(i * 7919 % 3));
+  expectEqual(t, 1, kTensionOne, kTensionOne);
+  expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
+}
+
+// A lone particle, a pair, a line, and a sheet; all far apart.
+TEST_F(SurfaceTensionTest, FewParticlesMatchReference) {
+  Trial t = withTension();
+  const double d = t.d();
+  t.x = {{0, 0, 0}, {10 * d, 0, 0}, {10 * d, 0.9 * d, 0}};
+  for (int k = 0; k < 6; ++k) t.x.push_back({30 * d, 0, k * d});
+  for (const glm::dvec3& x : block({5, 1, 5}, d, {40 * d, 0, 0})) t.x.push_back(x);
+  expectEqual(t, 1, kTensionOne, kTensionOne);
+  expectEqual(t, 3, kTensionTen, kTensionTen);
+}
+
+// Their direction apart is that of their ids, and the next substeps separate them.
+TEST_F(SurfaceTensionTest, HandlesCoincidentParticles) {
+  Trial t = withTension();
+  t.scene.gravity[1] = 0;
+  t.x = block({3, 3, 3}, t.d());
+  for (int copy = 0; copy < 2; ++copy) t.x.push_back(t.x[13]);
+  forEachGather(t, 20, [&](Run& run) {
+    const Snapshot s = run.snapshot();
+    EXPECT_TRUE(s.finite());
+    EXPECT_EQ(run.stats().nonFinite, 0u);
+    for (const size_t copy : {27, 28}) EXPECT_GT(glm::length(s.x[copy] - s.x[13]), 0.1 * t.d());
+  });
+}
+
+TEST_F(SurfaceTensionTest, LoneParticleFeelsNothing) {
+  Trial t = withTension();
+  t.scene.gravity[1] = 0;
+  t.x = {{0, 0, 0}};
+  t.v = {{0.25, 0, 0}};
+  auto run = start(t);
+  run->substeps(4);
+  EXPECT_EQ(run->snapshot().v[0], glm::dvec3(0.25, 0, 0));
+}
+
+TEST_F(SurfaceTensionTest, MomentumIsConserved) {
+  Trial t = withTension();
+  t.scene.fluid.surface_tension = 20;  // so weak that no speed is held back (docs/notes/overlaps.md)
+  t.scene.gravity[1] = 0;
+  t.x = block({9, 5, 9}, t.d());
+  forEachGather(t, 40, [&](Run& run) {
+    const Snapshot s = run.snapshot();
+    double moving = 0;
+    for (const glm::dvec3& v : s.v) moving += glm::length(v);
+    ASSERT_GT(moving / static_cast<double>(s.v.size()), 0.05) << "it contracts";
+    EXPECT_LT(glm::length(s.velocitySum()), 2e-4 * moving);
+  });
+}
+
+}  // namespace surface_tension_test
+}  // namespace rill::test
