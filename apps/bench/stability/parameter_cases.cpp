@@ -42,6 +42,17 @@ void set(Owner& owner, const model::Field<Owner, Value>& field, double value) {
 /// Excludes keys that define the resolution of the scene, and the memory that it takes.
 bool isTested(std::string_view key) { return key != "spacing" && key != "particles" && key != "capacity"; }
 
+/// Keys that random scenes get further below.
+bool isOfTension(std::string_view key) { return key == "surface_tension" || key == "contact_angle"; }
+
+/// Of a drop of one particle, m/s.
+double capillarySpeed(const Scene& scene) {
+  double square = 0;
+  for (const ResolvedFluid& fluid : resolvedFluids(scene))
+    square = std::max(square, fluid.surfaceTension / (fluid.density * scene.fluid.spacing));
+  return std::sqrt(square);
+}
+
 template <class Owner>
 void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner Scene::*part) {
   model::forEachField<Owner>([&](const auto& field) {
@@ -51,13 +62,15 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
     for (const double value : ends) {
       Scene scene = smallDam();
       if (field.info.key.starts_with("tensile_")) scene.fluid.tensile = 1;  // enables artificial pressure, which these keys shape
+      if (field.info.key == "contact_angle") scene.fluid.surface_tension = 1;
       set(scene.*part, field, value);
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
       std::string name = owner + ".";
       name.append(field.info.key).append("=").append(shown);
       StressCase c{.name = std::move(name), .scene = scene};
       c.duration_s = scene.solver.iterations > 100 ? 0.05 : 0.25;
-      c.maxSpeed = speedBound(scene);
+      c.maxSpeed = speedBound(scene) + 4 * capillarySpeed(scene);
+      c.externalWork = capillarySpeed(scene) > 0;  // the energy of a surface is not measured
       c.mayBeRejected = true;
       cases.push_back(std::move(c));
     }
@@ -104,7 +117,7 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     for (double& g : scene.gravity) g = chance(0.7) ? uniform(-10, 10) : 0;
     const auto randomize = [&](auto& owner, double probability) {
       model::forEachField<std::remove_reference_t<decltype(owner)>>([&](const auto& field) {
-        if (!isTested(field.info.key) || !chance(probability)) return;
+        if (!isTested(field.info.key) || isOfTension(field.info.key) || !chance(probability)) return;
         const bool words = !field.info.words.empty();
         const double low = words ? 0 : lowest(field.info.range),
                      high = words ? double(field.info.words.size() - 1) : highest(field.info.range);
@@ -138,14 +151,18 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
 
     if (seed % 3 == 1) addRandomFlows(scene, seed);
     if (seed % 4 == 2) addRandomFluids(scene, seed);
+    if (seed % 5 == 3) {
+      scene.fluid.surface_tension = scene.fluid.density * 10 * d * d * std::pow(10, double(seed % 4) - 2);  // Bond numbers of 0.1 to 100
+      scene.fluid.contact_angle = 10 * double(seed % 19);
+    }
     StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
     c.duration_s = 12 * std::sqrt(d / 10);
     c.frame_s = c.duration_s / 12;
-    c.externalWork =
-        std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty() || s.body; }) || !scene.emitters.empty();
+    c.externalWork = std::ranges::any_of(scene.solids, [](const Solid& s) { return !s.motion.empty() || s.body; }) ||
+                     !scene.emitters.empty() || capillarySpeed(scene) > 0;
     // Initial overlaps (jitter, a solid inside the fluid) separate, which adds potential energy.
     c.maxEnergy = scene.fill[0].jitter > 0 || solids > 0 ? 1.2 : 1.02;
-    c.maxSpeed = speedBound(scene, 4 * std::sqrt(10 * d) + (c.externalWork ? 40 * d : 0));
+    c.maxSpeed = speedBound(scene, 4 * std::sqrt(10 * d) + 4 * capillarySpeed(scene) + (c.externalWork ? 40 * d : 0));
     c.mayBeRejected = true;
     cases.push_back(std::move(c));
   }

@@ -77,6 +77,9 @@ std::vector<Feature> features() {
       {"tensile", {{"fluid.tensile", "0.5"}}, {{"fluid.tensile", "0"}, {"fluid.tensile_radius", "0.4"}, {"fluid.tensile_power", "2"}}},
       {"several fluids", {{"rill", "\"0.2\""}, {"fluids", kFluids}}, {{"rill", "\"0.2\""}, {"fluids", "[]"}}},
       {"diffusion", {{"rill", "\"0.2\""}, {"fluids", kDiffusing}}},
+      {"surface tension",
+       {{"rill", "\"0.2\""}, {"fluid.surface_tension", "0.072"}},
+       {{"rill", "\"0.2\""}, {"fluid.surface_tension", "0"}, {"fluid.contact_angle", "30"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
       {"solid out of reach", {{"solids", kDistantBox}}},  // without a solid it equals "solid box" off
       {"solid sphere", {{"solids", kSphere}}},
