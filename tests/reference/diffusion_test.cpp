@@ -19,7 +19,7 @@ ReferenceSolver diffusing(const std::vector<glm::dvec3>& places, double diffusio
   ReferenceSettings s;
   s.spacing = kDiffusingSpacing;
   s.gravity = glm::dvec3(0);
-  s.fluids = {{1000, 0, diffusion}, {1000, 0, 0}};
+  s.fluids = {{.diffusion = diffusion}, {}};
   s.diffusionStages = stages;
   ReferenceSolver solver(s, places);
   for (size_t i = 0; i < solver.size(); ++i) solver.state.fluid[i] = i % 2;
