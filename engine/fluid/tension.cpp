@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "core/words.hpp"
 #include "fluid/fluids.hpp"
@@ -11,13 +12,31 @@
 #include "sph/surface_tension.hpp"
 
 namespace rill {
+namespace {
+
+double kinematic(const ResolvedFluid& fluid) { return fluid.surfaceTension / fluid.density; }
+
+/// "fluid.surface_tension 0.072 N/m", or the key of the fluid that asks for the shortest step.
+std::string shownTension(const Scene& scene) {
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  const auto fastest = std::ranges::max_element(fluids, {}, kinematic);
+  const auto k = static_cast<size_t>(fastest - fluids.begin());
+  const bool own = k < scene.fluids.size() && scene.fluids[k].surface_tension;
+  return (own ? "fluids." + fastest->name : std::string("fluid")) + ".surface_tension " + roundedNumber(fastest->surfaceTension) + " N/m";
+}
+
+}  // namespace
 
 void addTension(const Scene& scene, FluidSetup& setup) {
   constexpr double kDeepShare = 0.95;  // of the entries of a particle in the middle of others: the third layer has 0.93
   constexpr double kMaxRate = 1e20;    // 1/s^2 and m/s^2: no step is as short as these would ask for
   FluidParams& p = setup.params;
   const double tension = largestTension(scene), d = scene.fluid.spacing;
-  if (tension <= 0) return;
+  if (tension <= 0) {
+    if (scene.fluid.contact_angle != FluidSettings{}.contact_angle)
+      setup.warnings.push_back("fluid.contact_angle: has no effect: the surface tension is 0, expected more (N/m)");
+    return;
+  }
   const TensionRates rates = tensionRates(tension, densestFluid(scene), d);
   p.tensionRate = f(std::min(rates.rate, kMaxRate));
   p.tensionWall = f(std::min(rates.wall, kMaxRate));
@@ -25,11 +44,10 @@ void addTension(const Scene& scene, FluidSetup& setup) {
   p.deepNeighbors = static_cast<uint32_t>(kDeepShare * 4 / 3 * std::numbers::pi * std::pow(listReach(scene), 3));
   const double step = capillaryStep(largestKinematicTension(scene), 1, d);
   if (scene.solver.time_step && *scene.solver.time_step > step)
-    setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) +
-                             " s is more than fluid.surface_tension allows at this spacing: steps are at most " + roundedNumber(step) +
-                             " s");
+    setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " + shownTension(scene) +
+                             " allows at this spacing: steps are at most " + roundedNumber(step) + " s");
   p.maxStep = std::min(p.maxStep, f(step));
-  warnOfDropping("fluid.surface_tension " + roundedNumber(tension) + " N/m", step, setup);
+  warnOfDropping(shownTension(scene), step, setup);
 }
 
 }  // namespace rill

@@ -1,4 +1,5 @@
 // Surface tension on the device: substeps against the reference, and momentum.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -98,6 +99,28 @@ TEST_F(SurfaceTensionTest, LoneParticleFeelsNothing) {
   auto run = start(t);
   run->substeps(4);
   EXPECT_EQ(run->snapshot().v[0], glm::dvec3(0.25, 0, 0));
+}
+
+/// How many warnings of a scene start with `text`.
+std::ptrdiff_t warningsWith(const Scene& scene, const std::string& text) {
+  const auto setup = makeFluidSetup(scene, {.capacity = 100, .extent = {1, 1, 1}});
+  EXPECT_TRUE(setup);
+  return setup ? std::ranges::count_if(setup->warnings, [&](const std::string& warning) { return warning.starts_with(text); }) : -1;
+}
+
+TEST_F(SurfaceTensionTest, WarnsOfStepsAndAngles) {
+  Scene scene = withTension(30).scene;
+  scene.solver.time_step = 1e-3;
+  const std::string step = "solver.time_step 0.016 s is more than ", angle = "fluid.contact_angle: has no effect: ";
+  EXPECT_EQ(warningsWith(scene, "solver.time_step"), 0);
+  EXPECT_EQ(warningsWith(scene, angle), 0);
+  scene.solver.time_step = 0.016;
+  EXPECT_EQ(warningsWith(scene, step + "fluid.surface_tension 200 N/m allows at this spacing: steps are at most 0.00"), 1);
+  scene.fluids = {{.name = "water"}, {.name = "ether", .density = 500, .surface_tension = 150}};
+  EXPECT_EQ(warningsWith(scene, step + "fluids.ether.surface_tension 150 N/m allows"), 1);
+  scene = trial().scene;
+  scene.fluid.contact_angle = 30;
+  EXPECT_EQ(warningsWith(scene, angle + "the surface tension is 0, expected more (N/m)"), 1);
 }
 
 TEST_F(SurfaceTensionTest, MomentumIsConserved) {

@@ -109,7 +109,7 @@ constexpr Band kBands[] = {
     {"layers", "in the wrong layer", kNoAim, {0.001, 0.001, 0.001}, "%", ""},
     {"drop", "period", 0.03, {0.04, 0.03, 0.06}, "%", kSkin},
     {"drop", "damping a period", kNoAim, {0.6, 0.5, 0.5}, "", ""},
-    {"drop", "pressure", 0.05, {0.1, 0.05, 0.15}, "%", kSkin},
+    {"drop", "pressure", 0.05, {0.1, 0.1, 0.15}, "%", kSkin},
     {"drop", "drift of the center", 1e-4, {1e-4, 1e-4, 1e-4}, "", ""},
     {"sessile-drop-30", "contact angle", 5, {18, 5, 5}, "degrees", "at 5 spacings a radius the drop is two layers high"},
     {"sessile-drop", "contact angle", 5, {5, 5, 5}, "degrees", ""},
