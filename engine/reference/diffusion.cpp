@@ -13,7 +13,7 @@ namespace rill::reference {
 std::vector<double> ReferenceSolver::exchange(const std::vector<double>& c) const {
   std::vector<double> all(size(), 0);
   for (size_t i = 0; i < size(); ++i)
-    for (const Pair& pair : pairs(i)) all[i] += diffusionWeight(glm::length(pair.offset) / kernel_.h()) * (c[pair.j] - c[i]);
+    for (const Pair& pair : pairs(i)) all[i] += pairWeight(glm::length(pair.offset) / kernel_.h()) * (c[pair.j] - c[i]);
   return all;
 }
 
@@ -21,7 +21,7 @@ double ReferenceSolver::diffusionRow() const {
   double largest = 0;
   for (size_t i = 0; i < size(); ++i) {
     double row = 0;
-    for (const Pair& pair : pairs(i)) row += diffusionWeight(glm::length(pair.offset) / kernel_.h());
+    for (const Pair& pair : pairs(i)) row += pairWeight(glm::length(pair.offset) / kernel_.h());
     largest = std::max(largest, row);
   }
   return largest;

@@ -37,7 +37,7 @@ Field ReferenceSolver::viscousForce(double c, const Field& v) const {
       const glm::dvec3 image = settings.noSlipWalls ? pair.sign.x * pair.sign.y * pair.sign.z * pair.sign : pair.sign;
       const glm::dvec3 q = pair.offset / kernel_.h();
       const double factor = c * inverseMass(i) * pairViscosity(i, pair.j);
-      force[i] += factor * viscousWeight(glm::length(q)) * glm::dot(q, image * v[pair.j] - v[i]) * q;
+      force[i] += factor * pairWeight(glm::length(q)) * glm::dot(q, image * v[pair.j] - v[i]) * q;
     }
   return force;
 }
@@ -48,7 +48,7 @@ double ReferenceSolver::viscosityBound(double c, std::span<const double> held) c
     glm::dmat3 own(0);
     for (const Pair& pair : pairs(i)) {
       const glm::dvec3 q = pair.offset / kernel_.h();
-      own += inverseMass(i) * pairViscosity(i, pair.j) * viscousWeight(glm::length(q)) * glm::outerProduct(q, q);
+      own += inverseMass(i) * pairViscosity(i, pair.j) * pairWeight(glm::length(q)) * glm::outerProduct(q, q);
     }
     for (int a = 0; a < 3; ++a)
       bound = std::max(bound, 1 + 2 * c * (std::abs(own[a].x) + std::abs(own[a].y) + std::abs(own[a].z)) + held[i]);

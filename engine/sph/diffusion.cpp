@@ -1,37 +1,11 @@
 #include "sph/diffusion.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace rill {
-namespace {
-
-/// The sum over the rest lattice, without the particle itself, of diffusionWeight q^power.
-double diffusionMoment(const SmoothingKernel& kernel, int power) {
-  const double spacing = kernel.spacing() / kernel.h();
-  const int reach = static_cast<int>(std::ceil(1 / spacing));
-  double sum = 0;
-  for (int i = -reach; i <= reach; ++i)
-    for (int j = -reach; j <= reach; ++j)
-      for (int k = -reach; k <= reach; ++k) {
-        if (i == 0 && j == 0 && k == 0) continue;
-        const double q = spacing * std::sqrt(double(i * i + j * j + k * k));
-        sum += diffusionWeight(q) * std::pow(q, power);
-      }
-  return sum;
-}
-
-}  // namespace
-
-double diffusionWeight(double q) {
-  const double t = std::max(1 - q, 0.0);
-  return t * t * t;
-}
 
 double diffusionRate(double diffusivity, const SmoothingKernel& kernel) {
-  return 6 * diffusivity / (kernel.h() * kernel.h() * diffusionMoment(kernel, 2));
+  return 6 * diffusivity / (kernel.h() * kernel.h() * pairMoment(kernel, 2));
 }
 
-double diffusionRow(const SmoothingKernel& kernel) { return diffusionMoment(kernel, 0); }
+double diffusionRow(const SmoothingKernel& kernel) { return pairMoment(kernel, 0); }
 
 }  // namespace rill

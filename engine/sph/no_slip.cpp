@@ -14,7 +14,7 @@ double noSlipLength(const SmoothingKernel& kernel, double s) {
   for (double behind = y + d / 2; behind < h; behind += d)
     for (int j = -reach; j <= reach; ++j)
       for (int k = -reach; k <= reach; ++k)
-        moment += behind * viscousWeight(std::sqrt(behind * behind + d * d * (j * j + k * k)) / h) * d * d * j * j / (h * h);
+        moment += behind * pairWeight(std::sqrt(behind * behind + d * d * (j * j + k * k)) / h) * d * d * j * j / (h * h);
   const double slope = -exactPlane(kernel, y).slope;
   return slope > 0 ? moment / (y * slope) : 0;
 }

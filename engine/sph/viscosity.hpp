@@ -1,15 +1,12 @@
 #pragma once
 // Viscosity as a force of pairs along their line (Weiler et al. 2018), which keeps linear and angular momentum. See
 // docs/notes/viscosity.md.
-#include "sph/kernel.hpp"
+#include "sph/pair_weight.hpp"
 
 namespace rill {
 
-/// Of a pair, at distance q over the support: the force is along q and proportional to viscousWeight(q) q^2 and the speed along q.
-double viscousWeight(double q);
-
-/// The factor c on  dv_i/dt = c sum_j viscousWeight(|q|) q (q . (v_j - v_i)),  q = (x_i - x_j) / h,  1/s, with which the rest lattice has
-/// the dynamic viscosity `viscosity` (Pa s) as the mean over all directions:  c = viscosity / (density h^2 M),  M = 1/30 sum viscousWeight
+/// The factor c on  dv_i/dt = c sum_j pairWeight(|q|) q (q . (v_j - v_i)),  q = (x_i - x_j) / h,  1/s, with which the rest lattice has
+/// the dynamic viscosity `viscosity` (Pa s) as the mean over all directions:  c = viscosity / (density h^2 M),  M = 1/30 sum pairWeight
 /// q^4.
 double viscosityRate(double viscosity, double density, const SmoothingKernel& kernel);
 

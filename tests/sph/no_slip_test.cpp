@@ -21,7 +21,7 @@ TEST(NoSlip, KeepsALinearProfileBesideAPlane) {
       double fluid = 0;
       for (int i = -4; i <= 4; ++i)
         for (int j = -layer; j <= 4; ++j)
-          for (int k = -4; k <= 4; ++k) fluid += viscousWeight(std::sqrt(i * i + j * j + k * k) / ratio) * i * i / (ratio * ratio) * j * kD;
+          for (int k = -4; k <= 4; ++k) fluid += pairWeight(std::sqrt(i * i + j * j + k * k) / ratio) * i * i / (ratio * ratio) * j * kD;
       const double wall = -plane.sample(y).slope * sampleNoSlip(table, plane.step, y) * y;
       EXPECT_NEAR(fluid, wall, 1e-6 * kD) << ratio << " " << layer;
     }
@@ -40,7 +40,7 @@ TEST(NoSlip, GivesThePlaneTheShearStress) {
   for (int i = -3; i <= 3; ++i)
     for (int j = -3; j <= 3; ++j)
       for (int k = -3; k <= 3; ++k)
-        fluid += viscousWeight(std::sqrt(i * i + j * j + k * k) / kRatio) * i * i / (kRatio * kRatio) * j * j * kD * kD / 2;
+        fluid += pairWeight(std::sqrt(i * i + j * j + k * k) / kRatio) * i * i / (kRatio * kRatio) * j * j * kD * kD / 2;
   EXPECT_NEAR(sum, fluid, 1e-9);
   EXPECT_EQ(sampleNoSlip(makeNoSlipTable(kernel), kD / 16, 3 * kD), 0);
 }
