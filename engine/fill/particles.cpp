@@ -107,11 +107,20 @@ bool mayOverlap(const std::vector<Source>& sources, const std::vector<Bounds>& b
 /// Adds particles to a set, leaving out those outside the domain, inside solids, or overlapping others.
 class Placer {
  public:
-  Placer(const Scene& scene, ParticleSet& out, PointHash* placed)
-      : scene_(scene), out_(out), solids_(scene.solids, scene.fluid.spacing), placed_(placed), spacing_(scene.fluid.spacing) {}
+  /// `mixes`: some particles start with a mixture.
+  Placer(const Scene& scene, ParticleSet& out, PointHash* placed, bool mixes)
+      : scene_(scene),
+        out_(out),
+        solids_(scene.solids, scene.fluid.spacing),
+        placed_(placed),
+        spacing_(scene.fluid.spacing),
+        mixes_(mixes),
+        diffusing_(diffusingFluids(scene)) {}
 
   /// `p`: position in scene coordinates, m. `number`: index within the fill. `fluid`: index among the scene's fluids.
-  void add(const Double3& p, const Float3& velocity, size_t fill, uint64_t number, uint8_t fluid, Source& source) {
+  /// `mixed`: what of each diffusing fluid is in it; null: it has not mixed.
+  void add(const Double3& p, const Float3& velocity, size_t fill, uint64_t number, uint8_t fluid, Source& source,
+           const Float4* mixed = nullptr) {
     const double jitter = scene_.fill[fill].jitter * spacing_;
     Double3 at, lattice;
     for (int axis = 0; axis < 3; ++axis) {
@@ -131,10 +140,18 @@ class Placer {
       out_.positions.push_back(relative(at));
       out_.velocities.push_back(velocity);
       if (!scene_.fluids.empty()) out_.fluids.push_back(fluid);
+      if (mixes_) out_.concentrations.push_back(mixed != nullptr ? *mixed : unmixed(fluid));
     }
   }
 
  private:
+  Float4 unmixed(uint8_t fluid) const {
+    Float4 shares{};
+    constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
+    for (size_t k = 0; k < diffusing_.size(); ++k) shares.*kComponents[k] = diffusing_[k] == fluid ? 1.0F : 0.0F;
+    return shares;
+  }
+
   /// Position relative to the origin, clamped to closed walls against rounding.
   Float3 relative(const Double3& p) const {
     float r[3];
@@ -153,6 +170,8 @@ class Placer {
   InsideSolids solids_;
   PointHash* placed_;
   double spacing_;
+  bool mixes_;
+  std::vector<size_t> diffusing_;
 };
 
 void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer) {
@@ -165,7 +184,7 @@ void placeFill(const Scene& scene, size_t index, Source& source, Placer& placer)
       const Float3 own = from.velocities.empty() ? Float3{} : from.velocities[i];
       placer.add({from.positions[i].x, from.positions[i].y, from.positions[i].z},
                  {own.x + velocity.x, own.y + velocity.y, own.z + velocity.z}, index, i, from.fluids.empty() ? fluid : from.fluids[i],
-                 source);
+                 source, from.concentrations.empty() ? nullptr : &from.concentrations[i]);
     }
     return;
   }
@@ -310,7 +329,9 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<Source>& sources,
   if (!scene.fluids.empty()) set.fluids.reserve(expected);
   std::optional<PointHash> placed;
   if (mayOverlap(sources, bounds, kOverlap * spacing)) placed.emplace(kOverlap * spacing, expected);
-  Placer placer(scene, set, placed ? &*placed : nullptr);
+  const bool mixes = std::ranges::any_of(sources, [](const Source& s) { return !s.particles.concentrations.empty(); });
+  if (mixes) set.concentrations.reserve(expected);
+  Placer placer(scene, set, placed ? &*placed : nullptr, mixes);
   for (size_t i = 0; i < sources.size(); ++i) {
     placeFill(scene, i, sources[i], placer);
     set.leftOutOverlap += sources[i].overlap;
@@ -385,10 +406,12 @@ Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   constexpr uint64_t kIds = std::numeric_limits<uint32_t>::max();  // ids have 32 bits, and one value marks "no particle"
   const uint64_t limit = std::min(maxParticles, kIds);
   std::vector<Source> sources(scene.fill.size());
+  const std::vector<size_t> diffusing = diffusingFluids(scene);
   for (size_t i = 0; i < sources.size(); ++i) {
     const auto* particles = std::get_if<ParticleFile>(&scene.fill[i].shape);
     if (particles == nullptr) continue;
-    auto file = PlyFile::open(particles->file, scene.fill[i].fluid.empty() ? scene.fluids.size() : 0);
+    const bool several = scene.fill[i].fluid.empty() && !scene.fluids.empty();
+    auto file = PlyFile::open(particles->file, several ? scene.fluids.size() : 0, several ? diffusing : std::vector<size_t>{});
     if (!file) return aboutFile(scene, i, file.error());
     sources[i].count = static_cast<double>(file->count());
     sources[i].file = std::move(*file);

@@ -15,6 +15,7 @@
 namespace rill {
 
 constexpr size_t kFirstConcentration = 7;
+constexpr double kConcentrationSlack = 1e-3;  // rounding of what a run writes
 
 struct PlyFile::Header : ply::Header {
   /// Indices of x y z vx vy vz fluid, and of concentrations, among the properties of a vertex; -1: missing, or not read.
@@ -24,7 +25,8 @@ struct PlyFile::Header : ply::Header {
   bool hasVelocity() const { return column[3] >= 0 && column[4] >= 0 && column[5] >= 0; }
   bool hasFluid() const { return column[6] >= 0; }
   bool hasConcentrations() const {
-    return column.size() > kFirstConcentration && std::ranges::none_of(column, [](int k) { return k < 0; });
+    return column.size() > kFirstConcentration &&
+           std::ranges::none_of(std::span(column).subspan(kFirstConcentration), [](int k) { return k < 0; });
   }
 };
 
@@ -85,10 +87,10 @@ Expected<PlyParticles> PlyFile::read() const {
         Float4& all = out.concentrations.emplace_back();
         constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
         for (size_t k = kFirstConcentration; k < header.column.size(); ++k) {
-          if (!fitsFloat(at(k)))
+          if (!(std::abs(at(k) - 0.5) <= 0.5 + kConcentrationSlack))
             return header.badInput("vertex " + grouped(i) + ": a concentration is " + shortestNumber(at(k)) +
-                                   "; expected a finite number that a 32-bit float can hold");
-          all.*kComponents[k - kFirstConcentration] = static_cast<float>(at(k));
+                                   "; expected a number from 0 to 1");
+          all.*kComponents[k - kFirstConcentration] = static_cast<float>(std::clamp(at(k), 0.0, 1.0));
         }
       }
       if (!header.hasFluid()) continue;

@@ -30,8 +30,8 @@ class PlyFile {
   ~PlyFile();
 
   uint64_t count() const;  ///< of vertices
-  /// Every position (m), velocity (m/s) and concentration is finite and fits a 32-bit float, and every fluid exists. BadInput naming the
-  /// vertex otherwise.
+  /// Every position (m) and velocity (m/s) is finite and fits a 32-bit float, concentrations are within 0 .. 1, and every fluid exists.
+  /// BadInput naming the vertex otherwise.
   Expected<PlyParticles> read() const;
 
  private:

@@ -37,6 +37,14 @@ Expected<void> checkGiven(const FluidDesc& desc) {
   if (const size_t count = resolvedFluids(*desc.scene).size(); !fluids.empty() && *std::ranges::max_element(fluids) >= count)
     return bad("ParticleSet::fluids has index " + std::to_string(*std::ranges::max_element(fluids)) + "; expected one below " +
                std::to_string(count) + ", the number of the scene's fluids");
+  const std::vector<Float4>& mixed = desc.particles->concentrations;
+  if (mixed.size() > n)
+    return bad("ParticleSet::concentrations has " + std::to_string(mixed.size()) + " entries; expected at most one for each of " +
+               std::to_string(n) + " positions");
+  for (const Float4& c : mixed)
+    for (const float share : {c.x, c.y, c.z, c.w})
+      if (!(share >= 0 && share <= 1))
+        return bad("ParticleSet::concentrations has " + shortestNumber(share) + "; expected numbers from 0 to 1");
   for (const double v : desc.particles->origin)
     if (!(std::abs(v) <= std::numeric_limits<float>::max()))
       return bad("ParticleSet::origin is " + shortestNumber(v) + "; expected numbers (m) that a 32-bit float can hold");

@@ -142,7 +142,7 @@ void FluidImpl::stageStart(const ParticleSet& particles, bool settle) {
   control.desiredStep = static_cast<float>(setup.firstStep);
   control.emissionWait = kNever;
 
-  stageConcentrations({}, particles.fluids);
+  stageConcentrations(particles.concentrations, particles.fluids);
   stageParticles(std::move(positions), std::move(velocities), setup.fluids > 1 ? particles.fluids : std::vector<uint8_t>());
   staging_->add(slotOf(FluidArray::Control), sizeof control, bytesOf(std::vector{control}));
   staging_->add(slotOf(FluidArray::Sums), sizeof sums, bytesOf(std::vector{sums}));

@@ -109,6 +109,8 @@ std::string hashOf(const ParticleSet& start) {
     for (const Float3& v : *vectors)
       for (float number : {v.x, v.y, v.z}) hash.add(std::bit_cast<uint32_t>(number));
   for (uint8_t fluid : start.fluids) hash.add(uint32_t{fluid});
+  for (const Float4& c : start.concentrations)
+    for (float share : {c.x, c.y, c.z, c.w}) hash.add(std::bit_cast<uint32_t>(share));
   return textOf(hash);
 }
 

@@ -143,6 +143,25 @@ TEST_F(DiffusionTest, MovesNothing) {
   }
 }
 
+// The host may give what the first particles start with; others have not mixed.
+TEST_F(DiffusionTest, StartsFromAMixture) {
+  Trial t = mixture({0.02, 0.2, 0.0});
+  for (size_t i = 0; i < 100; ++i) t.concentration.emplace_back(double(i) / 128, 1 - double(i) / 128, 0, 0);
+  expectReference(t, 10, kTenSteps);
+  const auto refusal = [&](const ParticleSet& particles) {
+    const Scene scene = t.timedScene();
+    const auto made = Fluid::create(rillDevice(), {.scene = &scene, .particles = &particles});
+    return made ? std::string() : made.error().message;
+  };
+  ParticleSet particles = t.particles();
+  for (const float bad : {-0.01F, 1.01F, std::numeric_limits<float>::quiet_NaN()}) {
+    particles.concentrations[7].y = bad;
+    EXPECT_NE(refusal(particles).find("ParticleSet::concentrations has "), std::string::npos) << bad;
+  }
+  particles.concentrations.assign(t.x.size() + 1, Float4{});
+  EXPECT_EQ(refusal(particles), "ParticleSet::concentrations has 253 entries; expected at most one for each of 252 positions");
+}
+
 TEST_F(DiffusionTest, GoesOnFromASnapshot) {
   const Trial t = mixture({0.02, 0.2, 0.0});
   auto run = start(t);

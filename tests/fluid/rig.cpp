@@ -76,6 +76,7 @@ ParticleSet Trial::particles() const {
   for (const glm::dvec3& p : v) set.velocities.push_back(narrow(p));
   set.velocities.resize(set.positions.size());
   set.fluids = fluids;
+  for (const glm::dvec4& c : concentration) set.concentrations.push_back({float(c.x), float(c.y), float(c.z), float(c.w)});
   return set;
 }
 
@@ -215,6 +216,8 @@ Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), r
   if (trial.settle && p.initialPressureIterations > 0)
     solver_.solveInitialPressure(p.initialPressureStep, p.initialPressureMomentum, static_cast<int>(p.initialPressureIterations));
   solver_.begin(trial.step);
+  for (size_t k = 0; k < solver_.state.concentration.size(); ++k)
+    for (size_t i = 0; i < trial.concentration.size(); ++i) solver_.state.concentration[k][i] = trial.concentration[i][int(k)];
 }
 
 std::vector<reference::Impulse> Oracle::advanceWithLoads(int substeps) {

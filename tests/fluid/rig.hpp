@@ -25,10 +25,11 @@ const char* nameOf(Gather gather);
 /// A scene with its particles, and the fixed step that both solvers take.
 struct Trial {
   Scene scene;
-  Double3 origin = {0, 0, 0};    ///< m
-  std::vector<glm::dvec3> x, v;  ///< m and m/s, relative to the origin; `v` may be empty: at rest
-  std::vector<uint8_t> fluids;   ///< of the particles; empty: all of the first
-  double step = 1e-3;            ///< s
+  Double3 origin = {0, 0, 0};                  ///< m
+  std::vector<glm::dvec3> x, v;                ///< m and m/s, relative to the origin; `v` may be empty: at rest
+  std::vector<uint8_t> fluids;                 ///< of the particles; empty: all of the first
+  std::vector<glm::dvec4> concentration = {};  ///< of the first particles; others have not mixed
+  double step = 1e-3;                          ///< s
   Gather gather = Gather::Texel;
   std::vector<BodyPull> pulls = {};  ///< of every advance
   uint32_t capacity = 0;             ///< 0: as many as there are particles

@@ -47,6 +47,22 @@ TEST(StateHash, CoversTheFluidOfEachParticle) {
   EXPECT_EQ(of(kIds, {0, 0, 0}), stateHash(kPositions, kVelocities, kIds)) << "one fluid";
 }
 
+TEST(StateHash, CoversConcentrations) {
+  const std::vector<Float4> mixed = {{0.5F, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0.25F}};
+  const auto of = [](const std::vector<uint32_t>& ids, const std::vector<Float4>& concentrations) {
+    return stateHash(kPositions, kVelocities, ids, {}, {}, concentrations);
+  };
+  const uint64_t base = of(kIds, mixed);
+  EXPECT_NE(base, of(kIds, {}));
+  for (float Float4::*component : {&Float4::x, &Float4::y, &Float4::z, &Float4::w}) {
+    auto other = mixed;
+    other[1].*component += 1e-6F;
+    EXPECT_NE(of(kIds, other), base);
+  }
+  const std::vector<Float3> p = {kPositions[2], kPositions[0], kPositions[1]}, v = {kVelocities[2], kVelocities[0], kVelocities[1]};
+  EXPECT_EQ(stateHash(p, v, std::vector<uint32_t>{2, 0, 1}, {}, {}, std::vector<Float4>{mixed[2], mixed[0], mixed[1]}), base);
+}
+
 TEST(OrderById, SortsIdsWithGapsAndRepeats) {
   EXPECT_EQ(orderById(std::vector<uint32_t>{2, 0, 1}), (std::vector<uint32_t>{1, 2, 0}));
   EXPECT_EQ(orderById(std::vector<uint32_t>{90, 7, 40}), (std::vector<uint32_t>{1, 2, 0}));

@@ -262,5 +262,47 @@ TEST_F(FluidsPly, RejectsFluidsThatTheSceneLacks) {
                                                                    ": the vertex property \"fluid\" is a list; expected a number");
 }
 
+/// A file of two fluids, of which the second has mixed, with or without velocities.
+std::string mixedFile(const std::vector<std::string>& shares, bool velocities = false) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(shares.size());
+  for (const char* name : {"x", "y", "z"}) text += std::string("\nproperty float ") + name;
+  for (const char* name : {"vx", "vy", "vz"}) text += velocities ? std::string("\nproperty float ") + name : "";
+  text += "\nproperty uchar fluid\nproperty float concentration1\nend_header\n";
+  for (size_t i = 0; i < shares.size(); ++i)
+    text += std::to_string(i) + " 0.5 0.5 " + (velocities ? "0 0 1 " : "") + "0 " + shares[i] + "\n";
+  return text;
+}
+
+const std::string kMilk = R"("fluids": [{"name": "water"}, {"name": "milk", "diffusion": 1e-5}], )";
+
+TEST_F(FluidsPly, KeepsWhatHasMixed) {
+  for (const bool velocities : {false, true}) {
+    const auto set = load(mixedFile({"0.25", "1.0000001", "0"}, velocities), kMilk);
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_EQ(set->concentrations, (std::vector<Float4>{{0.25F, 0, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0}}));
+  }
+  EXPECT_TRUE(load(mixedFile({"0.25"}), kTwoFluids + ", ")->concentrations.empty()) << "no fluid diffuses";
+  EXPECT_TRUE(load(mixedFile({"0.25"}), kMilk, R"(, "fluid": "milk")")->concentrations.empty()) << "the fill is all milk";
+  EXPECT_TRUE(load(file("uchar", {"1", "0"}), kMilk)->concentrations.empty()) << "the file has none";
+}
+
+TEST_F(FluidsPly, OtherFillsHaveNotMixed) {
+  folder.write("p.ply", mixedFile({"0.25"}));
+  auto s = parseScene(fluidScene(kMilk + R"("fill": [{"box": {"min": [4, 0, 0], "max": [4.1, 0.1, 0.1]}, "fluid": "milk"},
+      {"particles": {"file": "p.ply"}}])"),
+                      "dam.json", folder.path);
+  ASSERT_TRUE(s) << s.error().message;
+  EXPECT_EQ(particles(*s).concentrations, (std::vector<Float4>{{1, 0, 0, 0}, {0.25F, 0, 0, 0}}));
+}
+
+TEST_F(FluidsPly, RejectsConcentrationsOutsideOfZeroToOne) {
+  for (const char* bad : {"-0.1", "1.01", "nan", "inf"}) {
+    const auto set = load(mixedFile({"0.5", bad}), kMilk);
+    ASSERT_FALSE(set) << bad;
+    EXPECT_EQ(set.error().message, "dam: fill[0].particles.file: " + (folder.path / "p.ply").string() + ": vertex 1: a concentration is " +
+                                       bad + "; expected a number from 0 to 1");
+  }
+}
+
 }  // namespace
 }  // namespace rill::test

@@ -29,9 +29,11 @@ struct ParticleSet {
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s
   std::vector<uint8_t> fluids = {};     ///< index of each particle's fluid among resolvedFluids(); empty: all 0
-  uint64_t leftOutOverlap = 0;          ///< closer than 0.9 spacings to a particle of an earlier fill
-  uint64_t leftOutSolid = 0;            ///< number left out inside solids
-  uint64_t leftOutDomain = 0;           ///< number left out beyond walls
+  /// Share of each of diffusingFluids() in the first particles, 0 .. 1, as FluidState::concentration; others have not mixed.
+  std::vector<Float4> concentrations = {};
+  uint64_t leftOutOverlap = 0;  ///< closer than 0.9 spacings to a particle of an earlier fill
+  uint64_t leftOutSolid = 0;    ///< number left out inside solids
+  uint64_t leftOutDomain = 0;   ///< number left out beyond walls
   std::vector<std::string> warnings = {};
 };
 
