@@ -170,6 +170,7 @@ void fluidsGroup(Board& board, const Scene& scene) {
     model::forEachField<FluidMaterial>([&](const auto& field) {
       if (field.info.key == "density") KeyField(board, path, field.info).draw(fluids[k].density);
       if (field.info.key == "viscosity") KeyField(board, path, field.info).draw(fluids[k].viscosity);
+      if (field.info.key == "surface_tension") KeyField(board, path, field.info).draw(fluids[k].surfaceTension);
     });
     ImGui::TreePop();
   }
