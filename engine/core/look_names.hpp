@@ -5,7 +5,8 @@
 
 namespace rill {
 
-inline constexpr std::array<std::string_view, 9> kLookNames{"water", "milk", "ink", "clay", "pool", "sea", "river", "honey", "lava"};
+inline constexpr std::array<std::string_view, 10> kLookNames{"water", "milk",  "ink",   "clay", "pool",
+                                                             "sea",   "river", "honey", "lava", "diluted_milk"};
 inline constexpr std::array<std::string_view, 3> kSkyNames{"studio", "day", "sunset"};
 inline constexpr std::array<std::string_view, 2> kStageNames{"grid", "tank"};
 

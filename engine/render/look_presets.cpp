@@ -24,7 +24,7 @@ std::optional<FluidLook> fluidLook(std::string_view name) {
   // In the order of kLookNames. Measured coefficients are those at 610, 550 and 465 nm. Not static: the library has no global state.
   const std::array<FluidLook, kLookNames.size()> looks{{
       {},
-      {.absorption = {55, 60, 75}, .scatter = {0.84f, 0.82f, 0.76f}, .refractionIndex = 1.35f, .aeration = 0},
+      {.absorption = {2550, 3210, 3770}, .scatter = {0.91f, 0.88f, 0.76f}, .refractionIndex = 1.35f, .aeration = 0},
       {.absorption = {60, 42, 16}, .scatter = {0.004f, 0.008f, 0.03f}, .aeration = 0},
       {.scatter = {0.52f, 0.30f, 0.20f}, .opaque = true, .refractionIndex = 1.3f, .highlight = 12, .sun = 1, .aeration = 0},
       {.absorption = {0.264f, 0.0565f, 0.0101f}, .scatter = {0.0006f, 0.0043f, 0.050f}},
@@ -41,6 +41,7 @@ std::optional<FluidLook> fluidLook(std::string_view name) {
        .highlight = 60,
        .sun = 2,
        .aeration = 0},
+      {.absorption = {55, 70, 82}, .scatter = {0.91f, 0.88f, 0.76f}, .refractionIndex = 1.333f, .aeration = 0},
   }};
   const auto* found = std::ranges::find(kLookNames, name);
   if (found == kLookNames.end()) return std::nullopt;

@@ -57,8 +57,10 @@ class FlatPool : public SurfaceOnGpu {
     look.toSun = {0, -1, 0};  // from below: no glow around it in what the pool mirrors
     return look;
   }
-  std::vector<Color> seen(const FluidView& view, const FluidLook& look, std::array<float, 4> behind) {
+  std::vector<Color> seen(const FluidView& view, const FluidLook& look, std::array<float, 4> behind,
+                          const std::vector<float>& depths = {}) {
     Backdrop backdrop;
+    backdrop.depths = depths;
     backdrop.color = behind;
     backdrop.depth = view.projection.column[2].w == 0 ? 1.0f : 0.0f;  // as far as there is
     return drawn(view, look, backdrop, {.color = kFormat}).channels(kFormat);
@@ -104,6 +106,27 @@ TEST_F(FlatPool, TransmitsWhatItDoesNotReflect) {
       }
     EXPECT_LT(steepest, 30);
     EXPECT_GT(flattest, 65);
+  }
+}
+
+// A film on a floor, which refracted rays meet nearer than straight ones do: absorbed is at least what its depth absorbs.
+TEST_F(FlatPool, FilmOnAFloorAbsorbsAtAnyAngle) {
+  constexpr double kDepth = 0.3;
+  pool(kDepth);
+  FluidLook look = clear();
+  for (const double angle : {40 * kDegree, 60 * kDegree, 75 * kDegree}) {
+    const FluidView view = parallel(angle);
+    std::vector<float> floor;
+    for (uint32_t y = 0; y < kDown; ++y) {
+      const double up = 0.5 - (y + 0.5) / kDown, z = kDistance + (up * std::sin(angle) + kDepth) / std::cos(angle);  // m, along the view
+      floor.insert(floor.end(), kAcross, static_cast<float>(-view.projection.column[2].z * z));
+    }
+    for (const float rate : {3.0f, 30.0f}) {
+      look.absorption = {rate, rate, rate};
+      const auto white = seen(view, look, {1, 1, 1, 1}, floor), black = seen(view, look, {0, 0, 0, 1}, floor);
+      for (size_t i = 0; i < white.size(); ++i)
+        ASSERT_LT(white[i][1] - black[i][1], 1.1 * std::exp(-rate * kDepth) + 1e-3) << angle / kDegree << " degrees, pixel " << i;
+    }
   }
 }
 

@@ -172,7 +172,7 @@ TEST(CheckScene, RejectsInvalidValuesNamingKeyAndExpectation) {
        "look.sky: found the string \"dya\", expected one of \"studio\", \"day\", \"sunset\"; did you mean \"day\"?"},
       {[](Scene& s) { s.look.preset = "watr"; },
        "look.preset: found the string \"watr\", expected one of \"water\", \"milk\", \"ink\", \"clay\", \"pool\", \"sea\", \"river\", "
-       "\"honey\", \"lava\"; did you mean \"water\"?"},
+       "\"honey\", \"lava\", \"diluted_milk\"; did you mean \"water\"?"},
   };
   for (const Change& change : changes) {
     Scene scene = tank();
