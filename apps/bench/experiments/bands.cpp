@@ -21,6 +21,7 @@ constexpr std::string_view kReleased =
 constexpr std::string_view kLayerPressure = "the probe reads as much too high in a tank of one fluid";
 constexpr std::string_view kLightLayer = "what little pressure moves heavy particles at the interface moves light ones far";
 constexpr std::string_view kSkin = "the outermost particles change places more slowly than the surface moves, and carry some of it";
+constexpr std::string_view kThread = "short waves need more than their amplitude to move particles that lie as in a lattice";
 constexpr std::string_view kShear = "particles under pressure rub, as at a Reynolds number of some 10: docs/notes/several-fluids.md";
 
 constexpr Band kBands[] = {
@@ -114,8 +115,8 @@ constexpr Band kBands[] = {
     {"sessile-drop-30", "contact angle", 5, {18, 5, 5}, "degrees", "at 5 spacings a radius the drop is two layers high"},
     {"sessile-drop", "contact angle", 5, {5, 5, 5}, "degrees", ""},
     {"capillary-rise", "rise", 0.1, {0.1, 0.1, 0.15}, "%", ""},
-    {"thread", "mean radius of drops", 0.15, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
-    {"thread", "distance of drops", 0.15, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"thread", "mean radius of drops", 0.15, {0.35, 0.25, 0.15}, "%", kThread},
+    {"thread", "distance of drops", 0.15, {1.5, 0.8, 0.5}, "%", kThread},
     {"rayleigh-taylor", "growth rate", 0.1, {0.16, 0.1, 0.12}, "%", "the lattice of the start gives way while the wave grows"},
     {"lock-exchange", "Froude number", 0.1, {0.55, 0.5, 0.46}, "%", kShear},
     {"diffusion", "amount that has passed", 0.02, {0.02, 0.02, 0.02}, "%", ""},

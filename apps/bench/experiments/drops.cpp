@@ -177,51 +177,86 @@ Expected<Outcome> rise(const Bench& bench, unsigned level) {
   return outcome;
 }
 
-// A thread breaks up into drops as far apart as the fastest wave is long, 9.02 radii (Rayleigh 1878): drops of 1.89 radii.
+/// The drops that a thread became.
+struct ThreadDrops {
+  double radii = 0;  ///< sum, m
+  double count = 0;  ///< one at a wall is half of one
+};
+ThreadDrops threadDrops(const Cloud& cloud, double wall, double leastParticles) {
+  const double reach = 1.6 * cloud.spacing;
+  DisjointSets sets(cloud.size());
+  const NeighborGrid grid(cloud.position, reach);
+  for (size_t i = 0; i < cloud.size(); ++i)
+    grid.within(cloud.position[i], reach, [&](size_t j, double) { sets.join(static_cast<uint32_t>(i), static_cast<uint32_t>(j)); });
+  struct Drop {
+    size_t particles = 0;
+    bool atWall = false;
+  };
+  std::unordered_map<size_t, Drop> found;
+  for (size_t i = 0; i < cloud.size(); ++i) {
+    Drop& drop = found[sets.root(static_cast<uint32_t>(i))];
+    ++drop.particles;
+    drop.atWall |= std::abs(cloud.position[i].x) > wall - cloud.spacing;
+  }
+  ThreadDrops all;
+  for (const auto& [root, drop] : found) {
+    const double share = drop.atWall ? 0.5 : 1, whole = double(drop.particles) / share;
+    if (whole < leastParticles) continue;
+    all.radii += share * cloud.spacing * std::cbrt(0.75 * whole / std::numbers::pi);
+    all.count += share;
+  }
+  return all;
+}
+
+// A thread between two walls, in which it goes on as in mirrors, breaks up into drops as far apart as the fastest wave is long, 9.02 radii
+// (Rayleigh 1878): drops of 1.89 radii. Half a drop may stay at a wall.
 constexpr double kThreadRadius = 0.001;
 constexpr int kThreadResolution[kLevels] = {2, 3, 4};  // spacings a radius
 Expected<Outcome> thread(const Bench& bench, unsigned level) {
   const double spacing = kThreadRadius / kThreadResolution[level], wave = 9.02 * kThreadRadius, half = 3 * wave;
   Cloud cloud{.position = {}, .velocity = {}, .spacing = spacing};
   const int across = kThreadResolution[level] + 1, along = static_cast<int>(half / spacing);
+  const double wall = along * spacing;
+  // Waves of all lengths from the thread's to a quarter of the fastest's, equally fast, of either sign.
+  const auto noise = [&](double x) {
+    constexpr int kWaves = 48;
+    constexpr uint64_t kSigns = 0x9E3779B97F4A;
+    double speed = 0;
+    for (int m = 1; m <= kWaves; ++m) speed += (kSigns >> (m - 1) & 1 ? 1 : -1) * std::sin(m * std::numbers::pi * (x + wall) / (2 * wall));
+    return 0.05 * std::sqrt(kTension / (kDensity * kThreadRadius)) * speed;
+  };
   for (int i = -along; i < along; ++i)
     for (int j = -across; j < across; ++j)
       for (int k = -across; k < across; ++k) {
         const Double3 p{(i + 0.5) * spacing, (j + 0.5) * spacing, (k + 0.5) * spacing};
         if (std::hypot(p.y, p.z) > kThreadRadius) continue;
         cloud.position.push_back(p);
-        cloud.velocity.push_back({});
+        cloud.velocity.push_back({noise(p.x), 0, 0});
       }
   const auto start = StartFile::write(cloud);
   if (!start) return start.error();
   Scene scene = weightless(spacing);
+  const double room = 6 * kThreadRadius;
+  scene.domain = Domain{{-wall, -room, -room}, {wall, room, room}, SideMask{0b111100}};
   scene.fill.push_back(start->fill());
-  scene.fill.back().jitter = 0.1;
   const double unit = std::sqrt(kDensity * std::pow(kThreadRadius, 3) / kTension), end = 25 * unit;
-  std::vector<double> radii;
+  const double particlesOfWave = std::numbers::pi * kThreadRadius * kThreadRadius * wave / std::pow(spacing, 3);
+  ThreadDrops most;  // before drops that touch become one
+  Curve counts;
   auto run = runSampled(
-      bench, scene, end, end / 100, [&](double time) { return time > end * 0.995; },
-      [&](const Cloud& last, double) {
-        DisjointSets drops(last.size());
-        const NeighborGrid grid(last.position, 1.6 * spacing);
-        for (size_t i = 0; i < last.size(); ++i)
-          grid.within(last.position[i], 1.6 * spacing,
-                      [&](size_t j, double) { drops.join(static_cast<uint32_t>(i), static_cast<uint32_t>(j)); });
-        std::unordered_map<size_t, size_t> sizes;
-        for (size_t i = 0; i < last.size(); ++i) ++sizes[drops.root(static_cast<uint32_t>(i))];
-        const double particlesOfWave =
-            std::numbers::pi * kThreadRadius * kThreadRadius * wave / std::pow(spacing, 3);  // particles of a wave
-        for (const auto& [root, size] : sizes)
-          if (double(size) > particlesOfWave / 5) radii.push_back(spacing * std::cbrt(0.75 * double(size) / std::numbers::pi));
+      bench, scene, end, end / 100, [](double) { return true; },
+      [&](const Cloud& sample, double time) {
+        const ThreadDrops now = threadDrops(sample, wall, particlesOfWave / 5);  // no smaller ones, which are between two drops
+        if (now.count > most.count) most = now;
+        counts.emplace_back(time / unit, now.count);
       });
   if (!run) return run.error();
   Outcome outcome;
   outcome.run = std::move(*run);
-  if (radii.empty()) return Error{ErrorKind::Failed, "thread: no drop was left"};
-  double sum = 0;
-  for (const double radius : radii) sum += radius;
-  outcome.figures.push_back(relativeFigure("mean radius of drops", sum / double(radii.size()) / kThreadRadius, std::cbrt(0.75 * 9.02)));
-  outcome.figures.push_back(relativeFigure("distance of drops", 2 * half / double(radii.size()) / kThreadRadius, 9.02));
+  if (bench.stopped()) return outcome;
+  outcome.curves["drops"] = curveJson(counts);
+  outcome.figures.push_back(relativeFigure("mean radius of drops", most.radii / most.count / kThreadRadius, std::cbrt(0.75 * 9.02)));
+  outcome.figures.push_back(relativeFigure("distance of drops", 2 * wall / most.count / kThreadRadius, 9.02));
   return outcome;
 }
 
