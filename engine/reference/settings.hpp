@@ -6,6 +6,7 @@
 
 #include "reference/bodies.hpp"
 #include "rill/scene.hpp"
+#include "sph/interface_tension.hpp"
 
 namespace rill::reference {
 
@@ -60,6 +61,7 @@ struct ReferenceSettings {
   double vorticity = 0;                                         ///< eps_v, 0 .. 1
   double surfaceTension = 0;                                    ///< against air, N/m, >= 0; of one fluid
   double wettingCosine = 0;                                     ///< cosine of the contact angle
+  InterfaceCover cover = wholeCover();                          ///< of samples of one fluid by particles of another
   double drag = 0;                                              ///< 1/s
   double separationSpeed = 0;                                   ///< m/s, at which bodies that overlap come apart, at most
   std::vector<Pull> pulls;                                      ///< of bodies, from the next prediction on

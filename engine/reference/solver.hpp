@@ -202,6 +202,7 @@ class ReferenceSolver {
   };
   std::vector<SurfaceSample> surfaceSamples() const;
   double tensionOf(size_t i) const;                                                ///< N/m
+  double coverOf(size_t i, size_t j) const;                                        ///< m, of samples of i by j
   double pairViscosity(size_t i, size_t j) const;                                  ///< over settings.viscosity: the harmonic mean
   double densityScale() const;                                                     ///< factor on the fluid's part of the density
   std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)

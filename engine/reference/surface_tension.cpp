@@ -26,6 +26,10 @@ double ReferenceSolver::tensionOf(size_t i) const {
   return settings.fluids.empty() ? settings.surfaceTension : settings.fluids[state.fluid[i]].surfaceTension;
 }
 
+double ReferenceSolver::coverOf(size_t i, size_t j) const {
+  return settings.fluids.empty() ? 1 : settings.cover[state.fluid[i]][state.fluid[j]];
+}
+
 std::vector<ReferenceSolver::SurfaceSample> ReferenceSolver::surfaceSamples() const {
   const double d = settings.spacing, radius = double{kTensionRadius} * d, support = double{kTensionSupport} * d;
   const auto directions = tensionDirections();
@@ -52,7 +56,7 @@ std::vector<ReferenceSolver::SurfaceSample> ReferenceSolver::surfaceSamples() co
       double covered = 0;
       for (const uint32_t j : near.of(i)) {
         const double nearness = std::max(0.0, 1 - squareOf(x + offset - state.position[j]) / (support * support));
-        covered += double{kTensionAmplitude} * nearness * nearness * nearness;
+        covered += coverOf(i, j) * double{kTensionAmplitude} * nearness * nearness * nearness;
       }
       if (covered >= 1) continue;
       const auto away = [&](const Plane& plane) { return plane.distance + glm::dot(plane.normal, offset); };
@@ -73,7 +77,7 @@ void ReferenceSolver::surfaceTension(double dt) {
     for (const uint32_t j : near.of(sample.particle)) {
       const glm::dvec3 apart = state.position[sample.particle] + sample.offset - state.position[j];
       const double nearness = std::max(0.0, 1 - squareOf(apart) / (support * support));
-      const glm::dvec3 pull = rates.rate * sample.weight * sample.open * nearness * nearness * apart;
+      const glm::dvec3 pull = coverOf(sample.particle, j) * rates.rate * sample.weight * sample.open * nearness * nearness * apart;
       own -= pull;
       state.velocity[j] += dt * inverseMass(j) * pull;
     }

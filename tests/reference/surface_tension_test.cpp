@@ -69,6 +69,35 @@ TEST(ReferenceSurfaceTension, ForceIsGradientOfEnergyOfSeveralFluids) {
   expectForceIsGradient(s);
 }
 
+TEST(ReferenceSurfaceTension, ForceIsGradientOfEnergyOfInterfaces) {
+  ReferenceSettings s = tense();
+  s.fluids = {{.density = 1000, .surfaceTension = 3}, {.density = 400, .surfaceTension = 1}};
+  s.cover[0][1] = s.cover[1][0] = 0.3;
+  expectForceIsGradient(s);
+  s.fluids.push_back({.density = 10, .surfaceTension = 2});
+  s.cover[1][2] = s.cover[2][1] = 0;
+  expectForceIsGradient(s);
+}
+
+/// The energy of the surface of a ball inside another fluid, without that of the block around it.
+double energyOfInterface(double cover) {
+  ReferenceSettings s = tense();
+  s.fluids = {{.surfaceTension = kTension}, {.surfaceTension = kTension}};
+  ReferenceSolver solver(s, lattice(14, 14, 14, kTensionSpacing));
+  for (size_t i = 0; i < solver.size(); ++i)
+    solver.state.fluid[i] = glm::length(solver.state.position[i] - glm::dvec3(7 * kTensionSpacing)) < 4 * kTensionSpacing;
+  const double surface = solver.surfaceEnergy();
+  solver.settings.cover[0][1] = solver.settings.cover[1][0] = cover;
+  return solver.surfaceEnergy() - surface;
+}
+
+TEST(ReferenceSurfaceTension, EnergyOfAnInterfaceIsThatOfItsArea) {
+  const double area = 4 * std::numbers::pi * std::pow(4 * kTensionSpacing, 2), whole = energyOfInterface(0);
+  EXPECT_NEAR(whole / (2 * kTension * area), 1.2, 0.2) << "of a lattice, whose surface is rough";
+  for (const double share : {0.1, 0.3, 0.6, 0.9}) EXPECT_NEAR(energyOfInterface(interfaceCover(share)) / whole, share, 0.1);
+  EXPECT_NEAR(energyOfInterface(interfaceCover(0)) / whole, 0, 1e-3);
+}
+
 TEST(ReferenceSurfaceTension, NoForceInsideFluid) {
   ReferenceSolver solver(tense(), lattice(13, 13, 13, kTensionSpacing));
   solver.surfaceTension(kTensionStep);
