@@ -84,6 +84,7 @@ class Checker {
   bool value(const std::string& path, const model::Info& info, const std::pair<double, double>& given) {
     return value(elementPath(path, 0), info, given.first) && value(elementPath(path, 1), info, given.second);
   }
+  bool value(const std::string&, const model::Info&, const std::pair<std::string, std::string>&) { return true; }
   bool value(const std::string& path, const model::Info& info, const Double3& given) { return components(path, info, given); }
   bool value(const std::string& path, const model::Info& info, const Quaternion& given) { return components(path, info, given); }
   template <class Vector>

@@ -260,6 +260,8 @@ struct Table<Scene> {
                  .most = kMaxFluids,
                  .since = "0.2"},
             &Scene::fluids},
+      Field{Info{.key = "interfaces", .help = "tension between fluids; pairs that are not named have none", .since = "0.2"},
+            &Scene::interfaces},
       Field{Info{.key = "solver", .help = "accuracy and cost of the solver"}, &Scene::solver},
       Field{Info{.key = "fill", .help = "initial fluid; without it the scene is empty"}, &Scene::fill},
       Field{Info{.key = "solids", .help = "solids that the fluid flows around", .most = 4096}, &Scene::solids},

@@ -115,6 +115,20 @@ struct Table<FluidMaterial> {
 };
 
 template <>
+struct Table<FluidInterface> {
+  static constexpr std::string_view about = "Tension between two fluids";
+  static constexpr std::array one_of = kNoWords;
+  static constexpr std::tuple fields{
+      Field{Info{.key = "between", .help = "names of two of fluids", .required = true}, &FluidInterface::between},
+      Field{Info{.key = "tension",
+                 .unit = "N/m",
+                 .range = atLeast(0),
+                 .help = "interfacial tension: oil and water have 0.02 to 0.05. At most the sum of their surface tensions, which are else "
+                         "raised to it"},
+            &FluidInterface::tension}};
+};
+
+template <>
 struct Table<SolverSettings> {
   static constexpr std::string_view about = "Accuracy and cost of the solver";
   static constexpr std::array one_of = kNoWords;

@@ -1,5 +1,7 @@
 // The rules of `fluid` and `fluids`, and of the keys that name a fluid.
+#include <algorithm>
 #include <limits>
+#include <map>
 
 #include "model/name_rules.hpp"
 
@@ -35,6 +37,27 @@ CheckResult fewDiffuse(const std::vector<FluidMaterial>& fluids) {
   return {};
 }
 
+CheckResult checkInterfaces(const Scene& scene) {
+  if (scene.interfaces.empty()) return {};
+  if (scene.fluids.empty()) return Fault{"the scene has no \"fluids\"; expected two or more there, or no interfaces", {"interfaces"}};
+  std::vector<std::string_view> names;
+  for (const FluidMaterial& fluid : scene.fluids) names.push_back(fluid.name);
+  std::map<std::pair<std::string, std::string>, size_t> seen;
+  for (size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const auto& [one, other] = scene.interfaces[i].between;
+    const std::string path = memberPath(elementPath("interfaces", i), "between");
+    if (CheckResult fault = knownName(one, names, "fluid", "a fluid", elementPath(path, 0))) return fault;
+    if (CheckResult fault = knownName(other, names, "fluid", "a fluid", elementPath(path, 1))) return fault;
+    if (one == other) return Fault{"found " + inQuotes(one) + " twice; expected two fluids", {path}};
+    const auto [first, fresh] = seen.emplace(std::minmax(one, other), i);
+    if (!fresh)
+      return Fault{inQuotes(one) + " and " + inQuotes(other) + " are also those of " + elementPath("interfaces", first->second) +
+                       "; expected each pair once",
+                   {path}};
+  }
+  return {};
+}
+
 }  // namespace
 
 CheckResult checkRules(const FluidSettings& fluid) {
@@ -46,6 +69,7 @@ CheckResult checkRules(const std::vector<FluidMaterial>& fluids) { return unique
 
 CheckResult checkFluids(const Scene& scene) {
   if (CheckResult fault = fewDiffuse(scene.fluids)) return fault;
+  if (CheckResult fault = checkInterfaces(scene)) return fault;
   for (size_t i = 0; scene.fluid.spacing > 0 && i < scene.fluids.size(); ++i) {
     const double density = scene.fluids[i].density.value_or(scene.fluid.density);
     const std::string path = memberPath(elementPath("fluids", i), "density");

@@ -3,6 +3,21 @@
 #include "rill/scene.hpp"
 
 namespace rill {
+namespace {
+
+// Between fluids that have less tension against air than between them, air would come.
+void raiseTensions(const Scene& scene, std::vector<ResolvedFluid>& fluids) {
+  for (const FluidInterface& pair : scene.interfaces) {
+    const size_t a = fluidIndex(scene, pair.between.first), b = fluidIndex(scene, pair.between.second);
+    if (a >= fluids.size() || b >= fluids.size()) continue;  // checkScene() refuses it
+    const double missing = pair.tension - fluids[a].surfaceTension - fluids[b].surfaceTension;
+    if (!(missing > 0)) continue;
+    fluids[a].surfaceTension += missing / 2;
+    fluids[b].surfaceTension += missing / 2;
+  }
+}
+
+}  // namespace
 
 std::vector<ResolvedFluid> resolvedFluids(const Scene& scene) {
   const ResolvedFluid common{
@@ -16,6 +31,7 @@ std::vector<ResolvedFluid> resolvedFluids(const Scene& scene) {
                       .surfaceTension = material.surface_tension.value_or(common.surfaceTension),
                       .color = material.color,
                       .diffusion = material.diffusion});
+  raiseTensions(scene, fluids);
   return fluids;
 }
 

@@ -53,7 +53,7 @@ CheckResult checkRules(const std::vector<Solid>& solids);
 CheckResult checkRules(const std::vector<Probe>& probes);
 CheckResult checkRules(const std::vector<FluidMaterial>& fluids);
 CheckResult checkRules(const Scene& scene);
-/// Of the fluids' masses, how many diffuse, and of the names of fluids in fills, emitters and the inflow.
+/// Of the fluids' masses, how many diffuse, their interfaces, and of the names of fluids in fills, emitters and the inflow.
 CheckResult checkFluids(const Scene& scene);
 /// Adds the names of emitters and drains to `names`; a fault if two of them are the same.
 CheckResult collectFlowNames(const Scene& scene, std::vector<std::string_view>& names);

@@ -94,6 +94,7 @@ class KeyCollector {
   }
   // Strings and probes are excluded.
   void add(const model::Info&, std::string, const std::string&) {}
+  void add(const model::Info&, std::string, const std::pair<std::string, std::string>&) {}
   void add(const model::Info&, std::string, const std::filesystem::path&) {}
   void add(const model::Info&, std::string, const std::optional<std::pair<double, double>>&) {}
   void add(const model::Info&, std::string, const std::optional<Axis>&) {}
@@ -119,9 +120,14 @@ const std::string* find(const SimulationKeys& keys, const std::string& key) {
   return found == keys.end() ? nullptr : &found->second;
 }
 
-/// Which fluid each source emits, by its index: names may change.
-void addFluidsOfSources(const Scene& scene, SimulationKeys& keys) {
+/// Which fluid each source emits, and which have an interface, by their indices: names may change.
+void addNamedFluids(const Scene& scene, SimulationKeys& keys) {
   if (scene.fluids.empty()) return;
+  for (size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const auto& [one, other] = scene.interfaces[i].between;
+    keys.emplace_back(memberPath(elementPath("interfaces", i), "between"),
+                      std::to_string(fluidIndex(scene, one)) + " " + std::to_string(fluidIndex(scene, other)));
+  }
   const auto add = [&](const std::string& path, const std::string& name) {
     keys.emplace_back(memberPath(path, "fluid"), std::to_string(fluidIndex(scene, name)));
   };
@@ -135,7 +141,7 @@ SimulationKeys simulationKeys(const Scene& scene, const ParticleSet& start) {
   KeyCollector collector;
   collector.collect("", scene);
   SimulationKeys keys = collector.take();
-  addFluidsOfSources(scene, keys);
+  addNamedFluids(scene, keys);
   keys.emplace_back("start", hashOf(start));
   return keys;
 }

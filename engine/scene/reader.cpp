@@ -228,6 +228,11 @@ bool Reader::word(const Json& json, const std::string& path, const model::Info& 
   return accept(path, model::checkChoice(info, given));
 }
 
+bool Reader::value(const Json& json, const std::string& path, const model::Info&, std::pair<std::string, std::string>& out) {
+  if (!json.is_array() || json.size() != 2) return fail(path, foundText(json) + ", expected 2 names");
+  return text(json[0], elementPath(path, 0), out.first) && text(json[1], elementPath(path, 1), out.second);
+}
+
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, uint32_t& out) {
   double value = 0;
   if (!number(json, path, info, true, value)) return false;

@@ -100,6 +100,7 @@ class Reader {
   bool value(const Json& json, const std::string& path, const model::Info& info, std::optional<std::pair<double, double>>& out) {
     return pair(json, path, info, "[x, z]", out.emplace());
   }
+  bool value(const Json& json, const std::string& path, const model::Info& info, std::pair<std::string, std::string>& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, std::filesystem::path& out);
   bool value(const Json& json, const std::string& path, const model::Info& info, Double3& out) {
     return numbers(json, path, info, info.parts, out);

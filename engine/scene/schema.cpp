@@ -34,6 +34,9 @@ inline constexpr bool kIsVector = std::is_same_v<T, Double3> || std::is_same_v<T
 template <class T>
 inline constexpr bool kIsPair = std::is_same_v<T, std::pair<double, double>> || std::is_same_v<T, std::optional<std::pair<double, double>>>;
 
+template <class T>
+inline constexpr bool kIsNamePair = std::is_same_v<T, std::pair<std::string, std::string>>;
+
 /// The type of a key's value, by the type of its member.
 template <class T>
 OrderedJson typeSchema(const model::Info& info) {
@@ -55,6 +58,8 @@ OrderedJson typeSchema(const model::Info& info) {
     return {{"oneOf", OrderedJson::array({{{"const", info.unset}}, numberSchema(info, "number")})}};
   } else if constexpr (kIsPair<T>) {
     return arraySchema(numberSchema(info, "number"), 2, 2);
+  } else if constexpr (kIsNamePair<T>) {
+    return arraySchema({{"type", "string"}}, 2, 2);
   } else if constexpr (kIsVector<T>) {
     constexpr size_t kSize = std::is_same_v<T, Quaternion> ? 4 : 3;
     return arraySchema(numberSchema(info, "number"), kSize, kSize);
@@ -155,6 +160,8 @@ std::string valuesText(const model::Info& info) {
     return (info.unset.empty() ? "" : code(inQuotes(info.unset)) + ", or ") + withRange("number", info.range);
   } else if constexpr (kIsPair<T>) {
     return withRange("2 numbers", info.range);
+  } else if constexpr (kIsNamePair<T>) {
+    return "2 names";
   } else if constexpr (kIsVector<T>) {
     return withRange(std::string(std::is_same_v<T, Quaternion> ? "4" : "3") + " numbers", info.range);
   } else if constexpr (std::is_same_v<T, SideMask>) {

@@ -42,6 +42,7 @@ inline std::vector<std::string> sceneSeeds() {
   seeds.push_back(flows + '\0' + "emitters[0].flow=0.1\ndrains[0].from=1\nemitters[1].rect.size=[1e3,1e-3]\nfluid.capacity=0\nfill=[]");
   seeds.push_back(R"({"rill": "0.2", "domain": {"inflow": {"level": 0.5, "speed": 1, "fluid": "oil"}}, "fluid": {"spacing": 0.1},
     "fluids": [{"name": "water", "color": [0, 0.5, 1]}, {"name": "oil", "density": 900, "viscosity": 0.05}],
+    "interfaces": [{"between": ["oil", "water"], "tension": 0.02}],
     "fill": [{"box": {"max": [1, 0.3, 1]}}, {"fluid": "oil", "box": {"min": [0, 0.3, 0], "max": [1, 0.5, 1]}}],
     "emitters": [{"disc": {"center": [0.5, 0.9, 0.5], "radius": 0.15}, "flow": 0.002, "fluid": "oil"}]})" +
                   std::string(1, '\0') + "fluids.oil.density=1200\nfluids[0].viscosity=3\nfill[0].fluid=oil");

@@ -96,6 +96,34 @@ TEST(FluidsScene, RejectsMoreThanEight) {
             "dam.json: fluids: found 9 entries, expected at most 8");
 }
 
+TEST(FluidsScene, ReadsInterfaces) {
+  const Scene s =
+      scene(fluidScene(kTwoFluids + R"(, "interfaces": [{"between": ["oil", "water"], "tension": 0.02}], "fill": [{"box": {}}])"));
+  ASSERT_EQ(s.interfaces.size(), 1U);
+  EXPECT_EQ(s.interfaces[0].between, std::pair(std::string("oil"), std::string("water")));
+  EXPECT_EQ(s.interfaces[0].tension, 0.02);
+}
+
+TEST(FluidsScene, RejectsInvalidInterfaces) {
+  const std::string one = "; expected one of \"water\", \"oil\"";
+  const auto with = [&](const std::string& entries) { return fluidScene(kTwoFluids + ", \"interfaces\": [" + entries + "]"); };
+  expectFluidRefusals({
+      {with(R"({"between": ["oil", "wate"], "tension": 1})"),
+       "interfaces[0].between[1]: no fluid is named \"wate\"" + one + "; did you mean \"water\"?"},
+      {with(R"({"between": ["oil", "oil"], "tension": 1})"), "interfaces[0].between: found \"oil\" twice; expected two fluids"},
+      {with(R"({"between": ["oil", "water"]}, {"between": ["water", "oil"]})"),
+       "interfaces[1].between: \"water\" and \"oil\" are also those of interfaces[0]; expected each pair once"},
+      {with(R"({"between": ["oil", "water"], "tension": -1})"),
+       "interfaces[0].tension: -1 is out of range; expected a number of at least 0 (N/m)"},
+      {with(R"({"between": ["oil"]})"), "interfaces[0].between: found an array of length 1, expected 2 names"},
+      {with(R"({"between": ["oil", 3]})"), "interfaces[0].between[1]: found 3, expected a string"},
+      {with(R"({"between": "oil"})"), "interfaces[0].between: found the string \"oil\", expected 2 names"},
+      {with(R"({"tension": 1})"), "interfaces[0].between: required key is missing: names of two of fluids"},
+      {fluidScene(R"("interfaces": [{"between": ["oil", "water"]}])"),
+       "interfaces: the scene has no \"fluids\"; expected two or more there, or no interfaces"},
+  });
+}
+
 TEST(FluidsScene, RejectsUnknownFluids) {
   const std::string one = "; expected one of \"water\", \"oil\"", oil = "; did you mean \"oil\"?";
   const std::string tap = R"("emitters": [{"disc": {}, "flow": 1, "fluid": "oli"}])";

@@ -70,6 +70,7 @@ class Numbers {
     object(value);
   }
   void add(std::string&) {}
+  void add(std::pair<std::string, std::string>&) {}
   void add(std::filesystem::path&) {}
 
   std::vector<Set> all_;

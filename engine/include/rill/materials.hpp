@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "rill/vectors.hpp"
 
@@ -43,6 +44,12 @@ struct FluidMaterial {
   std::optional<double> surface_tension = {};  ///< against air, N/m, >= 0; empty: that of FluidSettings
   std::optional<Double3> color = {};           ///< of the light that 10 cm of it let through, linear RGB, 0 .. 1; empty: that of the look
   double diffusion = 0;  ///< diffusivity of it in the other fluids, m^2/s, >= 0; above 0 in at most kMaxDiffusing fluids
+};
+
+/// Tension between two of several fluids. At most the sum of their surface tensions: else these are raised to it.
+struct FluidInterface {
+  std::pair<std::string, std::string> between = {};  ///< names of two of Scene::fluids
+  double tension = 0;                                ///< N/m, >= 0
 };
 
 }  // namespace rill

@@ -219,7 +219,8 @@ struct Scene {
   std::vector<GravityChange> gravity_changes = {};
   std::optional<Domain> domain = {};  ///< empty: unbounded space
   FluidSettings fluid = {};
-  std::vector<FluidMaterial> fluids = {};  ///< empty: one fluid, of the material of `fluid`; at most kMaxFluids
+  std::vector<FluidMaterial> fluids = {};       ///< empty: one fluid, of the material of `fluid`; at most kMaxFluids
+  std::vector<FluidInterface> interfaces = {};  ///< each pair of fluids at most once
   SolverSettings solver = {};
   std::vector<Fill> fill = {};
   std::vector<Solid> solids = {};
@@ -235,7 +236,7 @@ struct ResolvedFluid {
   std::string name = "fluid";
   double density = 1000;              ///< kg/m^3
   double viscosity = 0;               ///< Pa s
-  double surfaceTension = 0;          ///< N/m, against air
+  double surfaceTension = 0;          ///< N/m, against air; with what interfaces add
   std::optional<Double3> color = {};  ///< as FluidMaterial::color
   double diffusion = 0;               ///< m^2/s
 };
