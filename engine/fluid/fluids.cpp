@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include "core/words.hpp"
 #include "fluid/numbers.hpp"
@@ -34,6 +37,17 @@ constexpr std::array<float FluidParams::*, kMaxFluids> kTensions{&FluidParams::t
                                                                  &FluidParams::tension3, &FluidParams::tension4, &FluidParams::tension5,
                                                                  &FluidParams::tension6, &FluidParams::tension7};
 
+// Two of a row a word, as unpackUnorm2x16() reads them.
+void addCover(const InterfaceCover& cover, FluidParams& params) {
+  constexpr size_t kWords = kMaxFluids / 2;
+  std::array<uint32_t, kMaxFluids* kWords> words = {};
+  for (size_t a = 0; a < kMaxFluids; ++a)
+    for (size_t b = 0; b < kMaxFluids; ++b)
+      words[a * kWords + b / 2] |= static_cast<uint32_t>(std::lround(cover[a][b] * 65535)) << (b % 2 * 16);
+  static_assert(offsetof(FluidParams, cover7D) == offsetof(FluidParams, cover0A) + (words.size() - 1) * sizeof(uint32_t));
+  std::memcpy(reinterpret_cast<std::byte*>(&params) + offsetof(FluidParams, cover0A), words.data(), sizeof words);
+}
+
 constexpr std::array<uint32_t FluidParams::*, kMaxDiffusing> kDiffusing{&FluidParams::diffusing0, &FluidParams::diffusing1,
                                                                         &FluidParams::diffusing2, &FluidParams::diffusing3};
 
@@ -65,7 +79,37 @@ double largestTension(const Scene& scene) {
 }
 
 double largestKinematicTension(const Scene& scene) {
-  return largestOf(scene, [](const ResolvedFluid& fluid) { return fluid.surfaceTension / fluid.density; });
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  const InterfaceCover cover = interfaceCover(scene);
+  double largest = 0;
+  for (size_t k = 0; k < fluids.size(); ++k) largest = std::max(largest, kinematicTension(fluids, cover, k).value);
+  return largest;
+}
+
+InterfaceCover interfaceCover(const Scene& scene) {
+  InterfaceCover cover = wholeCover();
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  for (const FluidInterface& pair : scene.interfaces) {
+    const size_t a = fluidIndex(scene, pair.between.first), b = fluidIndex(scene, pair.between.second);
+    if (pair.tension > 0 && a < fluids.size() && b < fluids.size())
+      cover[a][b] = cover[b][a] = interfaceCover(pair.tension / (fluids[a].surfaceTension + fluids[b].surfaceTension));
+  }
+  return cover;
+}
+
+bool hasInterfaces(const Scene& scene) {
+  return std::ranges::any_of(scene.interfaces, [](const FluidInterface& pair) { return pair.tension > 0; });
+}
+
+// The curvature of a sample's energy goes with the square of m_ab.
+KinematicTension kinematicTension(const std::vector<ResolvedFluid>& fluids, const InterfaceCover& cover, size_t k) {
+  KinematicTension fastest;
+  for (size_t b = 0; b < fluids.size(); ++b) {
+    if (b != k && cover[k][b] == 1) continue;
+    const double value = cover[k][b] * cover[k][b] * fluids[b].surfaceTension / fluids[k].density;
+    if (b == k || value > fastest.value) fastest = {b, std::max(value, fastest.value)};
+  }
+  return fastest;
 }
 
 double fastestViscosity(const Scene& scene) {
@@ -93,6 +137,8 @@ void addFluids(const Scene& scene, FluidSetup& setup) {
     setup.params.*kViscosities[k] = viscosity > 0 ? f(fluids[k].viscosity / viscosity) : 0;
     setup.params.*kTensions[k] = tension > 0 ? f(fluids[k].surfaceTension / tension) : 0;
   }
+  setup.interfaces = hasInterfaces(scene);
+  addCover(interfaceCover(scene), setup.params);
   for (const auto index : kDiffusing) setup.params.*index = kNoFluid;
   const std::vector<size_t> diffusing = diffusingFluids(scene);
   for (size_t k = 0; k < diffusing.size(); ++k) setup.params.*kDiffusing[k] = static_cast<uint32_t>(diffusing[k]);

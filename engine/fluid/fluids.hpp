@@ -3,6 +3,7 @@
 #include "rill/scene.hpp"
 #include "rill/vectors.hpp"
 #include "shared/fluid_records.h"
+#include "sph/interface_tension.hpp"
 
 namespace rill {
 
@@ -13,7 +14,19 @@ double largestViscosity(const Scene& scene);            ///< Pa s
 double largestKinematicViscosity(const Scene& scene);   ///< m^2/s
 double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s
 double largestTension(const Scene& scene);              ///< surface tension, N/m
-double largestKinematicTension(const Scene& scene);     ///< surface tension over density, m^3/s^2
+double largestKinematicTension(const Scene& scene);     ///< what asks for the shortest step: tension over density, m^3/s^2
+
+/// m_ab of sph/interface_tension.hpp.
+InterfaceCover interfaceCover(const Scene& scene);
+bool hasInterfaces(const Scene& scene);  ///< some fluids have tension between them
+
+/// The fluid whose tension moves particles of fluid k the fastest: its own, or one that it has an interface with; and that tension over
+/// the density of fluid k, m^3/s^2.
+struct KinematicTension {
+  size_t fluid = 0;
+  double value = 0;
+};
+KinematicTension kinematicTension(const std::vector<ResolvedFluid>& fluids, const InterfaceCover& cover, size_t k);
 
 /// The least difference of two fluids' densities over the larger of them; 1 where all are the same. With gravity it drives flows.
 double leastDensityDifference(const Scene& scene);

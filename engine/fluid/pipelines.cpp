@@ -50,6 +50,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"FORCES", hasForces(setup)},
           {"REGIONS", p.regionsX != 0},
           {"FLUIDS", setup.fluids > 1},
+          {"INTERFACES", setup.interfaces},
           {"DIFFUSES", p.maxDiffusionRate > 0},
           {"ARTIFICIAL_PRESSURE", p.tensileRate > 0},
           {"TENSILE_POWER", wholePower(p.tensilePower)},

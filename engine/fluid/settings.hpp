@@ -78,6 +78,7 @@ struct FluidSetup {
   double head = 0;                        ///< m^2/s^2, of the start's column
   double longestStep = 0, firstStep = 0;  ///< s, of the start
   uint32_t fluids = 1;                    ///< number of them
+  bool interfaces = false;                ///< some have tension between them
   bool walls = false;                     ///< the domain has a wall
   bool noSlipWalls = false;               ///< fluid sticks to them
   bool noSlipSolids = false;              ///< and to some solid

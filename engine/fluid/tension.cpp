@@ -14,15 +14,26 @@
 namespace rill {
 namespace {
 
-double kinematic(const ResolvedFluid& fluid) { return fluid.surfaceTension / fluid.density; }
-
 /// "fluid.surface_tension 0.072 N/m", or the key of the fluid that asks for the shortest step.
 std::string shownTension(const Scene& scene) {
   const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
-  const auto fastest = std::ranges::max_element(fluids, {}, kinematic);
-  const auto k = static_cast<size_t>(fastest - fluids.begin());
+  const InterfaceCover cover = interfaceCover(scene);
+  KinematicTension fastest;
+  for (size_t i = 0; i < fluids.size(); ++i)
+    if (const KinematicTension next = kinematicTension(fluids, cover, i); next.value > fastest.value) fastest = next;
+  const size_t k = fastest.fluid;
   const bool own = k < scene.fluids.size() && scene.fluids[k].surface_tension;
-  return (own ? "fluids." + fastest->name : std::string("fluid")) + ".surface_tension " + roundedNumber(fastest->surfaceTension) + " N/m";
+  return (own ? "fluids." + fluids[k].name : std::string("fluid")) + ".surface_tension " + roundedNumber(fluids[k].surfaceTension) + " N/m";
+}
+
+void warnOfRaisedTensions(const Scene& scene, FluidSetup& setup) {
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  for (size_t k = 0; k < scene.fluids.size(); ++k)
+    if (const double given = scene.fluids[k].surface_tension.value_or(scene.fluid.surface_tension); given < fluids[k].surfaceTension)
+      setup.warnings.push_back("fluids." + fluids[k].name + ".surface_tension: found " + roundedNumber(given) +
+                               " N/m; expected tensions against air of which two are at least that of their interface together; it is "
+                               "simulated with " +
+                               roundedNumber(fluids[k].surfaceTension) + " N/m");
 }
 
 }  // namespace
@@ -37,6 +48,7 @@ void addTension(const Scene& scene, FluidSetup& setup) {
       setup.warnings.push_back("fluid.contact_angle: has no effect: the surface tension is 0, expected more (N/m)");
     return;
   }
+  warnOfRaisedTensions(scene, setup);
   const TensionRates rates = tensionRates(tension, densestFluid(scene), d);
   p.tensionRate = f(std::min(rates.rate, kMaxRate));
   p.tensionWall = f(std::min(rates.wall, kMaxRate));

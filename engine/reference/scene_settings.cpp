@@ -52,6 +52,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.substepsPerBlock = static_cast<int>(setup.substepsPerBlock);
   s.vorticity = scene.fluid.vorticity;
   s.surfaceTension = largestTension(scene);
+  s.cover = interfaceCover(scene);
   s.wettingCosine = setup.params.tensionRate > 0 ? std::cos(scene.fluid.contact_angle * std::numbers::pi / 180) : 0;
   s.drag = scene.fluid.drag;
   s.separationSpeed = setup.params.separationSpeed;

@@ -27,5 +27,6 @@ layout(constant_id = 23) const bool OUTFLOW = false;   // a side is a wall up to
 layout(constant_id = 24) const bool REGIONS = false;   // regions of fluid at rest sleep on their own
 layout(constant_id = 25) const bool FLUIDS = false;    // there are several fluids
 layout(constant_id = 26) const bool DIFFUSES = false;  // some of them diffuse
+layout(constant_id = 27) const bool INTERFACES = false;  // some have tension between them
 #define LIST_OVERSIZED_ID 13
 #endif

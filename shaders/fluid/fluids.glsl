@@ -60,6 +60,23 @@ float tensionOf(uint fluid) {
   return fluid < 4u ? first[fluid] : others[fluid & 3u];
 }
 
+// How much particles of each fluid cover samples of one: see engine/sph/interface_tension.hpp.
+uvec4 coverRow(uint fluid) {
+  uvec4 row = uvec4(params.cover0A, params.cover0B, params.cover0C, params.cover0D);
+  if (fluid == 1u) row = uvec4(params.cover1A, params.cover1B, params.cover1C, params.cover1D);
+  if (fluid == 2u) row = uvec4(params.cover2A, params.cover2B, params.cover2C, params.cover2D);
+  if (fluid == 3u) row = uvec4(params.cover3A, params.cover3B, params.cover3C, params.cover3D);
+  if (fluid == 4u) row = uvec4(params.cover4A, params.cover4B, params.cover4C, params.cover4D);
+  if (fluid == 5u) row = uvec4(params.cover5A, params.cover5B, params.cover5C, params.cover5D);
+  if (fluid == 6u) row = uvec4(params.cover6A, params.cover6B, params.cover6C, params.cover6D);
+  if (fluid == 7u) row = uvec4(params.cover7A, params.cover7B, params.cover7C, params.cover7D);
+  return row;
+}
+float coverBy(uvec4 row, uint fluid) {
+  vec2 pair = unpackUnorm2x16(row[(fluid >> 1) & 3u]);
+  return (fluid & 1u) == 0u ? pair.x : pair.y;
+}
+
 // Of a pair of particles: the harmonic mean, by which the shear stress is continuous.
 float pairViscosity(uint a, uint b) {
   if (!FLUIDS) return 1.0;

@@ -19,10 +19,16 @@ layout(std430, binding = 10) buffer VelocityBlock { vec4 velocity[]; };
 READ_FLOAT4(11, solidPlane)  // xyz: away from the nearest solid, w: distance in m
 
 vec3 here;
+uvec4 coverOfFluids;
 Samples covered = ofAll(0.0);
 
 void visit(vec4 particle) {
   Samples near = nearness(particle.xyz - here);
+  if (INTERFACES) {
+    float cover = coverBy(coverOfFluids, fluidOfPosition(particle));
+    EACH_PART(k) covered.part[k] += cover * near.part[k] * near.part[k] * near.part[k];
+    return;
+  }
   EACH_PART(k) covered.part[k] += near.part[k] * near.part[k] * near.part[k];
 }
 #include "fluid/neighbors.glsl"
@@ -32,6 +38,9 @@ bool isDeep(uint head) {
   uint count = head & kUnlisted;
   return LIST_CAPACITY != 0u && count != kUnlisted && count >= params.deepNeighbors && (head & (kSegmentsBit | kNearSolidsBit)) == 0u;
 }
+
+// Whether the particle's fluid has tension with another one, which may be anywhere around.
+bool hasInterface() { return INTERFACES && coverOfFluids != uvec4(0xffffffffu); }
 
 // Planes that a sample can be near: those of the walls, then that of the nearest solid. xyz: away from it, w: distance of `here`, m.
 const uint kPlanes = SOLIDS ? 7u : 6u;
@@ -87,7 +96,8 @@ void main() {
   vec4 particle = particleAt(i);
   here = particle.xyz;
   uint head = headOf(i, inRange);
-  bool looks = inRange && isActive(here) && !sleeps(head) && !isDeep(head);
+  if (INTERFACES) coverOfFluids = coverRow(fluidOfPosition(particle));
+  bool looks = inRange && isActive(here) && !sleeps(head) && (hasInterface() || !isDeep(head));
   visitNeighbors(i, looks ? head : 0u, local, looks);
   if (i == 0u) exposed[params.capacity] = 0.0;  // the dummy neighbor
   if (!inRange) return;

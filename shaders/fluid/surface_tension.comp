@@ -31,6 +31,7 @@ Samples samplesOf(uint i) {
 }
 
 vec3 here;
+uvec4 coverOfFluids;
 float ownTension;
 Samples own = ofAll(0.0);
 vec3 force = vec3(0.0);
@@ -44,8 +45,9 @@ vec3 pull(Samples samples, vec3 apart) {
 
 void visit(vec4 particle, vec4 companion) {
   vec3 apart = particle.xyz - here;
-  if (ownTension > 0.0) force -= ownTension * pull(own, apart);
-  if (companion.x > 0.0) force += companion.x * pull(samplesOf(uint(companion.y) * kIndexPart + uint(companion.z)), -apart);
+  float cover = INTERFACES ? coverBy(coverOfFluids, fluidOfPosition(particle)) : 1.0;
+  if (ownTension > 0.0) force -= cover * ownTension * pull(own, apart);
+  if (companion.x > 0.0) force += cover * companion.x * pull(samplesOf(uint(companion.y) * kIndexPart + uint(companion.z)), -apart);
 }
 #include "fluid/neighbors.glsl"
 
@@ -60,6 +62,7 @@ void main() {
   bool moves = inRange && isActive(here) && !sleeps(head);
   ownTension = moves ? exposedAt(i) : 0.0;
   if (ownTension > 0.0) own = samplesOf(i);
+  if (INTERFACES) coverOfFluids = coverRow(fluidOfPosition(particle));
   visitNeighbors(i, moves ? head : 0u, local, moves);
   if (moves) velocity[i].xyz += control.step * params.tensionRate * inverseMassOf(fluidOfPosition(particle)) * force;
 }

@@ -133,6 +133,15 @@ struct FluidParams {
   uint diffusionStages;   // of a step of diffusion, at most: 1 or even
   // Surface tension of each fluid over the largest.
   float tension0, tension1, tension2, tension3, tension4, tension5, tension6, tension7;
+  // m_ab of engine/sph/interface_tension.hpp, a row for each a, two of them a word.
+  uint cover0A, cover0B, cover0C, cover0D;
+  uint cover1A, cover1B, cover1C, cover1D;
+  uint cover2A, cover2B, cover2C, cover2D;
+  uint cover3A, cover3B, cover3C, cover3D;
+  uint cover4A, cover4B, cover4C, cover4D;
+  uint cover5A, cover5B, cover5C, cover5D;
+  uint cover6A, cover6B, cover6C, cover6D;
+  uint cover7A, cover7B, cover7C, cover7D;
 };
 RILL_CONST uint kNoFluid = 0xFFFFFFFFu;
 

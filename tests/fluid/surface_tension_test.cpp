@@ -66,6 +66,68 @@ TEST_F(SurfaceTensionTest, SeveralFluidsMatchReference) {
   expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
 }
 
+/// Particles of `count` fluids in any order, the first two of which have tension between them.
+Trial withInterfaces(size_t count) {
+  Trial t = withTension();
+  t.scene.fluids = {{.name = "water", .surface_tension = 100}, {.name = "oil", .density = 500}, {.name = "none", .surface_tension = 0}};
+  for (size_t k = 3; k < count; ++k) t.scene.fluids.push_back({.name = std::to_string(k), .density = 700 + 10 * double(k)});
+  t.scene.interfaces = {{.between = {"oil", "water"}, .tension = 120}, {.between = {"none", "water"}, .tension = 60}};
+  if (count > 7) t.scene.interfaces.push_back({.between = {"7", "6"}, .tension = 390});
+  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
+  for (size_t i = 0; i < t.x.size(); ++i) t.fluids.push_back(static_cast<uint8_t>(i * 7919 % count));
+  return t;
+}
+
+TEST_F(SurfaceTensionTest, InterfacesMatchReference) {
+  for (const size_t count : {3, 8}) {
+    SCOPED_TRACE(count);
+    const Trial t = withInterfaces(count);
+    expectEqual(t, 1, kTensionOne, kTensionOne);
+    expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
+  }
+}
+
+// Inside fluid, where lists are full.
+TEST_F(SurfaceTensionTest, DropInsideFluidMatchesReference) {
+  Trial t = withTension();
+  t.scene.fluid.surface_tension = 0;
+  t.scene.fluids = {{.name = "water"}, {.name = "oil", .density = 900}};
+  t.scene.interfaces = {{.between = {"water", "oil"}, .tension = 200}};
+  setWalls(t, {1, 1, 1});
+  t.x = block({13, 13, 13}, t.d(), {}, 0.1);
+  for (const glm::dvec3& x : t.x) t.fluids.push_back(glm::length(x - glm::dvec3(6.5 * t.d())) < 3.5 * t.d() ? 1 : 0);
+  expectEqual(t, 1, kTensionOne, kTensionOne);
+  expectEqual(t, 5, kTensionTen, kTensionTen, kTensionAgeing);
+}
+
+TEST_F(SurfaceTensionTest, HandlesCoincidentParticlesOfTwoFluids) {
+  Trial t = withInterfaces(3);
+  t.scene.gravity[1] = 0;
+  for (const uint8_t fluid : {uint8_t{0}, uint8_t{1}}) {
+    t.x.push_back(t.x[100]);
+    t.fluids.push_back(fluid);
+  }
+  forEachGather(t, 20, [&](Run& run) {
+    EXPECT_TRUE(run.snapshot().finite());
+    EXPECT_EQ(run.stats().nonFinite, 0u);
+  });
+}
+
+TEST_F(SurfaceTensionTest, InterfacesConserveMomentum) {
+  Trial t = withInterfaces(3);
+  t.scene.gravity[1] = 0;
+  t.x = block({6, 7, 6}, t.d());
+  for (FluidInterface& pair : t.scene.interfaces) pair.tension /= 10;
+  for (FluidMaterial& fluid : t.scene.fluids) fluid.density = 1000, fluid.surface_tension = fluid.surface_tension.value_or(200) / 10;
+  forEachGather(t, 40, [&](Run& run) {
+    const Snapshot s = run.snapshot();
+    double moving = 0;
+    for (const glm::dvec3& v : s.v) moving += glm::length(v);
+    ASSERT_GT(moving / static_cast<double>(s.v.size()), 0.05);
+    EXPECT_LT(glm::length(s.velocitySum()), 2e-4 * moving);
+  });
+}
+
 // A lone particle, a pair, a line, and a sheet; all far apart.
 TEST_F(SurfaceTensionTest, FewParticlesMatchReference) {
   Trial t = withTension();
@@ -121,6 +183,19 @@ TEST_F(SurfaceTensionTest, WarnsOfStepsAndAngles) {
   scene = trial().scene;
   scene.fluid.contact_angle = 30;
   EXPECT_EQ(warningsWith(scene, angle + "the surface tension is 0, expected more (N/m)"), 1);
+}
+
+TEST_F(SurfaceTensionTest, RaisesTensionsThatInterfacesExceed) {
+  Scene scene = trial().scene;
+  scene.fluids = {{.name = "water", .surface_tension = 70}, {.name = "oil", .density = 500}};
+  scene.interfaces = {{.between = {"oil", "water"}, .tension = 70}};
+  EXPECT_EQ(warningsWith(scene, "fluids."), 0);
+  scene.interfaces[0].tension = 90;
+  EXPECT_EQ(resolvedFluids(scene)[0].surfaceTension, 80);
+  EXPECT_EQ(resolvedFluids(scene)[1].surfaceTension, 10);
+  const std::string why = "expected tensions against air of which two are at least that of their interface together";
+  EXPECT_EQ(warningsWith(scene, "fluids.water.surface_tension: found 70 N/m; " + why + "; it is simulated with 80 N/m"), 1);
+  EXPECT_EQ(warningsWith(scene, "fluids.oil.surface_tension: found 0 N/m; " + why + "; it is simulated with 10 N/m"), 1);
 }
 
 TEST_F(SurfaceTensionTest, MomentumIsConserved) {
