@@ -21,12 +21,12 @@ struct PlyFile::Header : ply::Header {
   /// Indices of x y z vx vy vz fluid, and of concentrations, among the properties of a vertex; -1: missing, or not read.
   std::vector<int> column = {};
   size_t fluids = 0;
+  std::vector<size_t> diffusing = {};
 
   bool hasVelocity() const { return column[3] >= 0 && column[4] >= 0 && column[5] >= 0; }
   bool hasFluid() const { return column[6] >= 0; }
   bool hasConcentrations() const {
-    return column.size() > kFirstConcentration &&
-           std::ranges::none_of(std::span(column).subspan(kFirstConcentration), [](int k) { return k < 0; });
+    return std::ranges::any_of(std::span(column).subspan(kFirstConcentration), [](int k) { return k >= 0; });
   }
 };
 
@@ -45,7 +45,7 @@ Expected<PlyFile> PlyFile::open(const std::filesystem::path& file, size_t fluids
   names.insert(names.end(), shares.begin(), shares.end());
   auto read = ply::readHeader(file, "vertex");
   if (!read) return read.error();
-  auto header = std::make_unique<Header>(Header{std::move(*read), {}, fluids});
+  auto header = std::make_unique<Header>(Header{std::move(*read), {}, fluids, {diffusing.begin(), diffusing.end()}});
   if (header->elements.empty() || header->elements.back().name != "vertex")
     return header->badInput("the header has no vertex element; expected one with x, y and z");
   header->column.resize(names.size(), -1);
@@ -83,24 +83,27 @@ Expected<PlyParticles> PlyFile::read() const {
       }
       out.positions.push_back({at(0), at(1), at(2)});
       if (header.hasVelocity()) out.velocities.push_back({static_cast<float>(at(3)), static_cast<float>(at(4)), static_cast<float>(at(5))});
-      if (header.hasConcentrations()) {
-        Float4& all = out.concentrations.emplace_back();
-        constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
-        for (size_t k = kFirstConcentration; k < header.column.size(); ++k) {
-          if (!(std::abs(at(k) - 0.5) <= 0.5 + kConcentrationSlack))
-            return header.badInput("vertex " + grouped(i) + ": a concentration is " + shortestNumber(at(k)) +
-                                   "; expected a number from 0 to 1");
-          all.*kComponents[k - kFirstConcentration] = static_cast<float>(std::clamp(at(k), 0.0, 1.0));
+      if (header.hasFluid()) {
+        const double fluid = at(6);
+        if (!(fluid >= 0 && fluid < static_cast<double>(header.fluids)) || fluid != std::floor(fluid)) {
+          return header.badInput("vertex " + grouped(i) + ", property \"fluid\": found " + shortestNumber(fluid) +
+                                 ", expected the index of one of the scene's fluids, a whole number from 0 to " +
+                                 std::to_string(header.fluids - 1));
         }
+        out.fluids.push_back(static_cast<uint8_t>(fluid));
       }
-      if (!header.hasFluid()) continue;
-      const double fluid = at(6);
-      if (!(fluid >= 0 && fluid < static_cast<double>(header.fluids)) || fluid != std::floor(fluid)) {
-        return header.badInput("vertex " + grouped(i) + ", property \"fluid\": found " + shortestNumber(fluid) +
-                               ", expected the index of one of the scene's fluids, a whole number from 0 to " +
-                               std::to_string(header.fluids - 1));
+      if (!header.hasConcentrations()) continue;
+      const size_t own = header.hasFluid() ? out.fluids.back() : 0;
+      Float4& all = out.concentrations.emplace_back();
+      constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
+      for (size_t k = 0; k < header.diffusing.size(); ++k) {
+        const int column = header.column[kFirstConcentration + k];
+        const double share = column >= 0 ? row[static_cast<size_t>(column)] : own == header.diffusing[k] ? 1 : 0;
+        if (!(std::abs(share - 0.5) <= 0.5 + kConcentrationSlack))
+          return header.badInput("vertex " + grouped(i) + ", property \"concentration" + std::to_string(header.diffusing[k]) +
+                                 "\": found " + shortestNumber(share) + ", expected a number from 0 to 1");
+        all.*kComponents[k] = static_cast<float>(std::clamp(share, 0.0, 1.0));
       }
-      out.fluids.push_back(static_cast<uint8_t>(fluid));
     }
   }
   return out;

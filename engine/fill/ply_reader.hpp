@@ -13,10 +13,11 @@
 namespace rill {
 
 struct PlyParticles {
-  std::vector<Double3> positions;           ///< m
-  std::vector<Float3> velocities;           ///< m/s; empty if the file has none
-  std::vector<uint8_t> fluids;              ///< index of each particle's fluid; empty if the file has none, or they are not read
-  std::vector<Float4> concentrations = {};  ///< of the fluids that were asked for; empty if the file lacks one, or they are not read
+  std::vector<Double3> positions;  ///< m
+  std::vector<Float3> velocities;  ///< m/s; empty if the file has none
+  std::vector<uint8_t> fluids;     ///< index of each particle's fluid; empty if the file has none, or they are not read
+  /// Of the fluids that were asked for; one that the file lacks has not mixed. Empty if it lacks all, or they are not read.
+  std::vector<Float4> concentrations = {};
 };
 
 /// A PLY file with a valid header whose counts fit the size of the file, so that memory may be allocated by them.

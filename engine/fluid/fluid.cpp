@@ -22,7 +22,7 @@ static_assert(kMaxParticles == KeySortDesc::kMaxCount);
 
 uint64_t blocks(uint64_t particles) { return divideUp(particles, kListBlock); }
 
-/// All but the numbers of the particles, each of which may be anything.
+/// All but positions and velocities, whose numbers may be anything.
 Expected<void> checkGiven(const FluidDesc& desc) {
   const auto bad = [](std::string what) { return Error{ErrorKind::BadInput, std::move(what)}; };
   if (!desc.scene) return bad("FluidDesc::scene is null; expected a scene");
@@ -41,10 +41,11 @@ Expected<void> checkGiven(const FluidDesc& desc) {
   if (mixed.size() > n)
     return bad("ParticleSet::concentrations has " + std::to_string(mixed.size()) + " entries; expected at most one for each of " +
                std::to_string(n) + " positions");
-  for (const Float4& c : mixed)
-    for (const float share : {c.x, c.y, c.z, c.w})
+  for (size_t i = 0; i < mixed.size(); ++i)
+    for (const float share : {mixed[i].x, mixed[i].y, mixed[i].z, mixed[i].w})
       if (!(share >= 0 && share <= 1))
-        return bad("ParticleSet::concentrations has " + shortestNumber(share) + "; expected numbers from 0 to 1");
+        return bad("ParticleSet::concentrations has " + shortestNumber(share) + " in entry " + std::to_string(i) +
+                   "; expected numbers from 0 to 1");
   for (const double v : desc.particles->origin)
     if (!(std::abs(v) <= std::numeric_limits<float>::max()))
       return bad("ParticleSet::origin is " + shortestNumber(v) + "; expected numbers (m) that a 32-bit float can hold");

@@ -245,8 +245,7 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   const float bends = z <= nearestDrawn() ? 0.0 : smoothstep(kRefractionFade.x, kRefractionFade.y, mean_normal.coherence);
   const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), bends));
   float inside = thicknessAt(middle);
-  // What a layer as thick as the fluid is here leaves of the ray: at grazing angles the search below may find less.
-  const float layer = inside * clamp(dot(face, sight) / min(dot(face, bent), kEdgeOn), 0.0, 1.0);
+  const float straight = inside;
   // Whitewater is full of air and scatters white light.
   const float white = look.finish.w * (1.0 - smoothstep(kWhitewaterFade.x, kWhitewaterFade.y, mean_normal.coherence)) *
                       (1.0 - exp(-inside / view.spacing));
@@ -269,6 +268,8 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
     hit_pixel = middle;
     ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
   }
+  // At grazing angles the search may end too soon: a layer as thick as the fluid is here and there leaves at least this of the ray.
+  const float layer = min(straight, thicknessAt(hit_pixel)) * clamp(dot(face, sight) / min(dot(face, bent), kEdgeOn), 0.0, 1.0);
   const float path = max(min(inside, ray_length), layer);
   const Passage fluids = passage(middle, path, scattered);
   vec3 body = sceneBilinear(hit_pixel, z) * fluids.through + fluids.added;

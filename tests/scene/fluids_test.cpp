@@ -314,6 +314,12 @@ TEST_F(FluidsPly, KeepsWhatHasMixed) {
   EXPECT_TRUE(load(file("uchar", {"1", "0"}), kMilk)->concentrations.empty()) << "the file has none";
 }
 
+TEST_F(FluidsPly, FluidsThatTheFileLacksHaveNotMixed) {
+  const auto set = load(mixedFile({"0.25"}), R"("fluids": [{"name": "ink", "diffusion": 1}, {"name": "milk", "diffusion": 1e-5}], )");
+  ASSERT_TRUE(set) << set.error().message;
+  EXPECT_EQ(set->concentrations, (std::vector<Float4>{{1, 0.25F, 0, 0}}));
+}
+
 TEST_F(FluidsPly, OtherFillsHaveNotMixed) {
   folder.write("p.ply", mixedFile({"0.25"}));
   auto s = parseScene(fluidScene(kMilk + R"("fill": [{"box": {"min": [4, 0, 0], "max": [4.1, 0.1, 0.1]}, "fluid": "milk"},
@@ -327,8 +333,8 @@ TEST_F(FluidsPly, RejectsConcentrationsOutsideOfZeroToOne) {
   for (const char* bad : {"-0.1", "1.01", "nan", "inf"}) {
     const auto set = load(mixedFile({"0.5", bad}), kMilk);
     ASSERT_FALSE(set) << bad;
-    EXPECT_EQ(set.error().message, "dam: fill[0].particles.file: " + (folder.path / "p.ply").string() + ": vertex 1: a concentration is " +
-                                       bad + "; expected a number from 0 to 1");
+    EXPECT_EQ(set.error().message, "dam: fill[0].particles.file: " + (folder.path / "p.ply").string() +
+                                       ": vertex 1, property \"concentration1\": found " + bad + ", expected a number from 0 to 1");
   }
 }
 

@@ -208,7 +208,7 @@ ThreadDrops threadDrops(const Cloud& cloud, double wall, double leastParticles) 
   return all;
 }
 
-// A thread between two walls, in which it goes on as in mirrors, breaks up into drops as far apart as the fastest wave is long, 9.02 radii
+// A thread that mirror images continue at both walls breaks up into drops as far apart as the fastest wave is long, 9.02 radii
 // (Rayleigh 1878): drops of 1.89 radii. Half a drop may stay at a wall.
 constexpr double kThreadRadius = 0.001;
 constexpr int kThreadResolution[kLevels] = {2, 3, 4};  // spacings a radius
@@ -217,7 +217,7 @@ Expected<Outcome> thread(const Bench& bench, unsigned level) {
   Cloud cloud{.position = {}, .velocity = {}, .spacing = spacing};
   const int across = kThreadResolution[level] + 1, along = static_cast<int>(half / spacing);
   const double wall = along * spacing;
-  // Waves of all lengths from the thread's to a quarter of the fastest's, equally fast, of either sign.
+  // Waves of all lengths from twice the thread's to a quarter of the fastest's, equally fast, of either sign.
   const auto noise = [&](double x) {
     constexpr int kWaves = 48;
     constexpr uint64_t kSigns = 0x9E3779B97F4A;

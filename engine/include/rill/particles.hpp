@@ -29,7 +29,8 @@ struct ParticleSet {
   std::vector<Float3> positions = {};   ///< m, relative to origin
   std::vector<Float3> velocities = {};  ///< m/s
   std::vector<uint8_t> fluids = {};     ///< index of each particle's fluid among resolvedFluids(); empty: all 0
-  /// Share of each of diffusingFluids() in the first particles, 0 .. 1, as FluidState::concentration; others have not mixed.
+  /// Share of each of diffusingFluids() in the first particles, 0 .. 1, as FluidState::concentration; other particles have not mixed.
+  /// Shares of fluids that the scene lacks are not used.
   std::vector<Float4> concentrations = {};
   uint64_t leftOutOverlap = 0;  ///< closer than 0.9 spacings to a particle of an earlier fill
   uint64_t leftOutSolid = 0;    ///< number left out inside solids
