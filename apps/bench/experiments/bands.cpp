@@ -22,6 +22,7 @@ constexpr std::string_view kLayerPressure = "the probe reads as much too high in
 constexpr std::string_view kLightLayer = "what little pressure moves heavy particles at the interface moves light ones far";
 constexpr std::string_view kSkin = "the outermost particles change places more slowly than the surface moves, and carry some of it";
 constexpr std::string_view kThread = "short waves need more than their amplitude to move particles that lie as in a lattice";
+constexpr std::string_view kOilDrop = "particles under pressure rub: a liquid of them is viscous, and slows the drop down";
 constexpr std::string_view kShear = "particles under pressure rub, as at a Reynolds number of some 10: docs/notes/several-fluids.md";
 
 constexpr Band kBands[] = {
@@ -112,6 +113,10 @@ constexpr Band kBands[] = {
     {"drop", "damping a period", kNoAim, {0.6, 0.5, 0.5}, "", ""},
     {"drop", "pressure", 0.05, {0.1, 0.1, 0.15}, "%", kSkin},
     {"drop", "drift of the center", 1e-4, {1e-4, 1e-4, 1e-4}, "", ""},
+    {"oil-drop", "period", 0.1, {0.2, 0.2, 0.2}, "%", kOilDrop},
+    {"oil-drop", "damping a period", kNoAim, {2, 2, 2}, "", ""},
+    {"oil-drop", "pressure", 0.05, {0.2, 0.2, 0.2}, "%", kSkin},
+    {"oil-drop", "drift of the center", 1e-4, {0.06, 0.06, 0.06}, "", "the walls take momentum"},
     {"sessile-drop-30", "contact angle", 5, {18, 5, 5}, "degrees", "at 5 spacings a radius the drop is two layers high"},
     {"sessile-drop", "contact angle", 5, {5, 5, 5}, "degrees", ""},
     {"capillary-rise", "rise", 0.1, {0.1, 0.1, 0.15}, "%", ""},

@@ -155,6 +155,11 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
       scene.fluid.surface_tension = scene.fluid.density * 10 * d * d * std::pow(10, double(seed % 4) - 2);  // Bond numbers of 0.1 to 100
       scene.fluid.contact_angle = 10 * double(seed % 19);
     }
+    if (scene.fluids.size() > 1 && seed % 3 == 0) {
+      const double tension = scene.fluid.density * 10 * d * d * std::pow(10, double(seed / 4 % 4) - 2);
+      scene.interfaces = {{.between = {"0", "1"}, .tension = tension}};
+      if (scene.fluids.size() > 2) scene.interfaces.push_back({.between = {"2", "0"}, .tension = tension / 3});
+    }
     StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
     c.duration_s = 12 * std::sqrt(d / 10);
     c.frame_s = c.duration_s / 12;

@@ -55,6 +55,7 @@ constexpr const char* kMoving =
     R"([{"box": {"min": [2.6, 0, 0.3], "max": [2.9, 0.6, 0.7]}, "motion": [{"at": 0}, {"at": 1, "translate": [0.5, 0, 0]}]}])";
 
 constexpr const char* kFluids = R"([{"name": "water"}, {"name": "oil", "density": 900}])";  // all of the base scene is water
+constexpr const char* kInterface = R"([{"between": ["water", "oil"], "tension": 0.02}])";
 constexpr const char* kDiffusing = R"([{"name": "water"}, {"name": "milk", "diffusion": 0.001}])";
 
 /// The ball of kSphere as a mesh.
@@ -80,6 +81,9 @@ std::vector<Feature> features() {
       {"surface tension",
        {{"rill", "\"0.2\""}, {"fluid.surface_tension", "0.072"}},
        {{"rill", "\"0.2\""}, {"fluid.surface_tension", "0"}, {"fluid.contact_angle", "30"}}},
+      {"interfaces",
+       {{"rill", "\"0.2\""}, {"fluids", kFluids}, {"fluid.surface_tension", "0.072"}, {"interfaces", kInterface}},
+       {{"rill", "\"0.2\""}, {"interfaces", "[]"}}},
       {"solid box", {{"solids", kBox}}, {{"solids", "[]"}}},
       {"solid out of reach", {{"solids", kDistantBox}}},  // without a solid it equals "solid box" off
       {"solid sphere", {{"solids", kSphere}}},
