@@ -13,7 +13,9 @@ namespace rill::reference {
 /// One of several fluids.
 struct ReferenceFluid {
   double density = 1000;      ///< kg/m^3, > 0
-  double viscosity = 0;       ///< Pa s, >= 0
+  double viscosity = 0;       ///< Pa s, >= 0; of one that shear changes, its consistency, Pa s^n
+  double yieldStress = 0;     ///< Pa, >= 0
+  double flowIndex = 1;       ///< n
   double surfaceTension = 0;  ///< against air, N/m, >= 0
   double diffusion = 0;       ///< m^2/s, >= 0, in the others
 };
@@ -55,6 +57,8 @@ struct ReferenceSettings {
 
   std::vector<ReferenceFluid> fluids;                           ///< empty: one
   double viscosity = 0;                                         ///< mu, Pa s; the largest of several fluids
+  bool shearViscosity = false;                                  ///< shear changes that of some of `fluids`, given for one, too
+  double shearBound = std::numeric_limits<double>::infinity();  ///< of the eigenvalues of its solve: the viscosity is bounded by it
   int viscositySteps = 0;                                       ///< of its solve, at most, as the shaders take them; 0: solved exactly
   int diffusionStages = 0;                                      ///< of a step, at most, as the shaders take them; 0: very short steps
   bool noSlipWalls = false;                                     ///< viscous fluid sticks to the walls

@@ -296,6 +296,7 @@ void ReferenceSolver::velocities(double dt) {
   const AddReaction add = addTo(impulses_, solids, 1 / dt);
   std::vector<double> kept(size(), 1);
   fastest_ = squares_ = 0;  // exclude solids, as in the shaders
+  if (settings.shearViscosity) prior_ = state.velocity;
   for (size_t i = 0; i < size(); ++i) {
     const double gain = glm::length(gain_[i]);
     kept[i] = gain > maxGain ? maxGain / gain : 1;

@@ -154,6 +154,7 @@ class ReferenceSolver {
   std::span<const double> densityRatio() const { return densityRatio_; }  ///< rho/rho0
   std::span<const double> lambda() const { return lambda_; }              ///< m^2, <= 0
   std::span<const double> lambdaChange() const { return lambdaChange_; }  ///< dlambda, m^2
+  double shearRate(size_t i, const std::vector<glm::dvec3>& v) const;     ///< of particle i in its fluid, 1/s: sqrt(2 D : D)
   std::span<const glm::dvec3> curl() const { return curl_; }              ///< of v, 1/s, of the last vorticity()
 
   /// B and grad B at a point, with solids at time `t` (s).
@@ -204,6 +205,7 @@ class ReferenceSolver {
   double tensionOf(size_t i) const;                                                ///< N/m
   double coverOf(size_t i, size_t j) const;                                        ///< m, of samples of i by j
   double pairViscosity(size_t i, size_t j) const;                                  ///< over settings.viscosity: the harmonic mean
+  std::vector<double> shearViscosities(double c) const;                            ///< of particles, likewise, from the rates of shear
   double densityScale() const;                                                     ///< factor on the fluid's part of the density
   std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)
   std::vector<glm::dvec3> viscousForce(double c,
@@ -251,6 +253,8 @@ class ReferenceSolver {
   };
   std::vector<Contribution> contributions_;
   std::vector<glm::dvec3> curl_;
+  std::vector<glm::dvec3> prior_;         ///< m/s, velocities before the substep, if shear changes viscosities
+  std::vector<double> shearViscosity_;    ///< over settings.viscosity, of particles
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   double push_ = 0;                       ///< m^2, of the last correction
   int substeps_ = 0;                      ///< since the start

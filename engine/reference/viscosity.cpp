@@ -1,4 +1,5 @@
-// Viscosity as an implicit step, (1 + dt L) v' = v, with L v = -f(v) of sph/viscosity.hpp.
+// Viscosity as an implicit step, (1 + dt L) v' = v, with L v = -f(v) of sph/viscosity.hpp. Where shear changes viscosities it starts
+// from the velocities before the substep, which a fluid that creeps nearly keeps.
 #include "sph/viscosity.hpp"
 
 #include <algorithm>
@@ -6,9 +7,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 #include "reference/solver.hpp"
+#include "shared/shear_viscosity.h"
 #include "shared/viscosity_steps.h"
+#include "sph/shear_viscosity.hpp"
 
 namespace rill::reference {
 namespace {
@@ -22,12 +26,23 @@ Field sum(const Field& a, double factor, const Field& b) {
   return all;
 }
 
+double trace(const glm::dmat3& m) { return m[0].x + m[1].y + m[2].z; }
+
+double largestRow(const glm::dmat3& m) {
+  double largest = 0;
+  for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(m[a].x) + std::abs(m[a].y) + std::abs(m[a].z));
+  return largest;
+}
+
 }  // namespace
 
 double ReferenceSolver::pairViscosity(size_t i, size_t j) const {
   if (settings.fluids.empty()) return 1;
-  const double own = settings.fluids[state.fluid[i]].viscosity, other = settings.fluids[state.fluid[j]].viscosity;
-  return own > 0 && other > 0 ? 2 / (1 / own + 1 / other) / settings.viscosity : 0;
+  const auto of = [&](size_t k) {
+    return settings.shearViscosity ? shearViscosity_[k] : settings.fluids[state.fluid[k]].viscosity / settings.viscosity;
+  };
+  const double own = of(i), other = of(j);
+  return own > 0 && other > 0 ? 2 / (1 / own + 1 / other) : 0;
 }
 
 Field ReferenceSolver::viscousForce(double c, const Field& v) const {
@@ -50,17 +65,69 @@ double ReferenceSolver::viscosityBound(double c, std::span<const double> held) c
       const glm::dvec3 q = pair.offset / kernel_.h();
       own += inverseMass(i) * pairViscosity(i, pair.j) * pairWeight(glm::length(q)) * glm::outerProduct(q, q);
     }
-    for (int a = 0; a < 3; ++a)
-      bound = std::max(bound, 1 + 2 * c * (std::abs(own[a].x) + std::abs(own[a].y) + std::abs(own[a].z)) + held[i]);
+    bound = std::max(bound, 1 + 2 * c * largestRow(own) + held[i]);
   }
   return bound;
 }
 
+// That of the linear flow which fits the neighbors, without its divergence; noise of velocities hardly changes it. Where too few neighbors
+// lie in a plane or on a line rigid motion would have a rate, but has none by that of the pairs: in a linear flow (q . (v_j - v_i))^2 is
+// 2/15 h^2 q^4 D : D on average over all directions, or over a half of them.
+double ReferenceSolver::shearRate(size_t i, const Field& v) const {
+  double squares = 0, moment = 0;
+  glm::dmat3 places(0), slopes(0);
+  for (const Pair& pair : pairs(i)) {
+    if (state.fluid[pair.j] != state.fluid[i]) continue;
+    const glm::dvec3 image = settings.noSlipWalls ? pair.sign.x * pair.sign.y * pair.sign.z * pair.sign : pair.sign;
+    const glm::dvec3 q = pair.offset / kernel_.h(), difference = image * v[pair.j] - v[i];
+    const double weight = pairWeight(glm::length(q)), along = glm::dot(q, difference);
+    squares += weight * along * along;
+    moment += weight * glm::dot(q, q) * glm::dot(q, q);
+    places += weight * glm::outerProduct(q, q);
+    slopes += weight * glm::outerProduct(difference, q);
+  }
+  const double ofPairs = std::sqrt(15 * squares / std::max(moment, 1e-20)) / kernel_.h();
+  places += glm::dmat3(std::max(1e-3 * trace(places), 1e-9));
+  const glm::dmat3 flow = slopes * glm::inverse(places), strain = 0.5 * (flow + glm::transpose(flow)) - glm::dmat3(trace(flow) / 3);
+  double square = 0;
+  for (int a = 0; a < 3; ++a) square += 2 * glm::dot(strain[a], strain[a]);
+  return std::min(kShearOfPairs * ofPairs, std::sqrt(square) / kernel_.h());
+}
+
+// No more than what the steps of the solve reach.
+std::vector<double> ReferenceSolver::shearViscosities(double c) const {
+  std::vector<double> all(size());
+  for (size_t i = 0; i < size(); ++i) {
+    const ReferenceFluid& fluid = settings.fluids[state.fluid[i]];
+    all[i] = viscosityAt({fluid.viscosity, fluid.yieldStress, fluid.flowIndex}, shearRate(i, prior_)) / settings.viscosity;
+    glm::dmat3 own(0);
+    double moment = 0;
+    for (const Pair& pair : pairs(i)) {
+      const glm::dvec3 q = pair.offset / kernel_.h();
+      if (state.fluid[pair.j] != state.fluid[i]) continue;
+      own += pairWeight(glm::length(q)) * glm::outerProduct(q, q);
+      moment += pairWeight(glm::length(q)) * glm::dot(q, q) * glm::dot(q, q);
+    }
+    // At a surface, and in a liquid, sums are less than in the lattice. Solids count with the density that they displace.
+    const double whole = moment / pairMoment(kernel_, 4) + boundary_[i].value;
+    all[i] *= std::clamp(1 / std::max(whole, 1e-20), 1.0, double{kShearGain});
+    const double row = 2 * c * inverseMass(i) * largestRow(own), room = (settings.shearBound - 1) / kShearMargin;
+    if (row * all[i] > room) all[i] = room / row;
+  }
+  return all;
+}
+
 // By Chebyshev's iteration with the steps of the shaders, or by conjugate gradients to rounding.
 void ReferenceSolver::viscosity(double dt) {
-  const double c = viscosityRate(settings.viscosity, settings.density, kernel_) * dt;
+  double c = viscosityRate(settings.viscosity, settings.density, kernel_) * dt;
   std::vector<double> held(size(), 0);
   Field& v = state.velocity;
+  const Field free = v;
+  if (settings.shearViscosity) {
+    if (prior_.empty()) prior_ = v;  // a stage of its own
+    shearViscosity_ = shearViscosities(c);
+    v = std::exchange(prior_, {});
+  }
   Field residual = viscousForce(c, v);
   const std::vector<Pose> solids = poses(time_ - dt, dt);
   for (const Adhesion& a : adhesions(solids, c, false)) {
@@ -68,13 +135,21 @@ void ReferenceSolver::viscosity(double dt) {
     const Double3 surface = velocityAt(solids[a.solid], {a.at.x, a.at.y, a.at.z});
     residual[a.particle] += a.strength * (a.reverse * vec(surface) - v[a.particle]);
   }
+  // Momentum is kept only if the steps reach all eigenvalues.
+  const double bound = settings.viscositySteps > 0 ? viscosityBound(c, held) : 1;
+  const double scale = bound > settings.shearBound ? (settings.shearBound - 1) / (bound - 1) : 1, unscaled = c;
+  c *= scale;
+  for (double& each : held) each *= scale;
+  if (settings.shearViscosity)
+    for (size_t i = 0; i < size(); ++i) residual[i] = free[i] - v[i] + scale * residual[i];
   const auto applied = [&](const Field& of) {
     Field all = sum(of, -1, viscousForce(c, of));
     for (size_t i = 0; i < size(); ++i) all[i] += held[i] * of[i];
     return all;
   };
   if (settings.viscositySteps > 0) {
-    const shared::ViscositySteps steps = shared::viscositySteps(viscosityBound(c, held), static_cast<uint32_t>(settings.viscositySteps));
+    const shared::ViscositySteps steps =
+        shared::viscositySteps(std::min(bound, settings.shearBound), static_cast<uint32_t>(settings.viscositySteps));
     Field direction = sum(Field(size(), glm::dvec3(0)), 1 / steps.center, residual);
     add(1, direction);
     for (uint32_t k = 1; k < steps.count; ++k) {
@@ -103,7 +178,10 @@ void ReferenceSolver::viscosity(double dt) {
       before = after;
     }
   }
-  if (std::ranges::find(settings.solids, false, &Solid::slip) != settings.solids.end()) noSlip(c, dt);
+  if (std::ranges::find(settings.solids, false, &Solid::slip) != settings.solids.end()) noSlip(unscaled, dt);
+  if (!settings.shearViscosity) return;
+  // Particles follow: else what stands would sink by what gravity adds to its speed in every substep.
+  for (size_t i = 0; i < size(); ++i) state.position[i] = collide(state.position[i] + dt * (v[i] - free[i]), {});
 }
 
 }  // namespace rill::reference
