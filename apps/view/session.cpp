@@ -118,7 +118,8 @@ bool Session::isLive(std::string_view key) const {
   if (std::ranges::find(kNeedsRestart, key) != std::end(kNeedsRestart)) return false;
   if (const auto solid = bodyOfMass(key)) return *solid < fileSolids_ && scene().solids[*solid].body.has_value();
   if (key == "gravity") return scene().gravity_changes.empty();
-  if (key.starts_with("fluids")) return key.ends_with(".viscosity") || key.ends_with(".color");
+  constexpr std::string_view kLiveMaterials[] = {".viscosity", ".yield_stress", ".flow_index", ".color"};
+  if (key.starts_with("fluids")) return std::ranges::any_of(kLiveMaterials, [&](std::string_view end) { return key.ends_with(end); });
   return key.starts_with("fluid.") || key.starts_with("solver.") || key.starts_with("look.");
 }
 

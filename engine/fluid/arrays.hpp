@@ -71,6 +71,7 @@ enum class FluidArray : uint8_t {
   NearMultipliers,
   Smoothed,
   Hold,
+  PriorVelocity,
   Residual,
   Direction,
   NextDirection,
@@ -109,8 +110,8 @@ struct ArrayShape {
   uint64_t cellStarts = 0;   ///< entries
   uint64_t fluids = 1, gravityChanges = 1, tableEntries = 0, solids = 0, bodies = 0, contactPoints = 0, pressureProbes = 0, emitters = 0,
            mouthPoints = 0, drains = 0, regions = 0, meshWords = 0, keyframes = 0;
-  bool lists = true, warm = false, multipliers = false, smooths = false, viscous = false, vorticity = false, tension = false, loads = false,
-       noSlipSolids = false, noSlipBodies = false, removes = false, diffuses = false;
+  bool lists = true, warm = false, multipliers = false, smooths = false, viscous = false, shearViscosity = false, vorticity = false,
+       tension = false, loads = false, noSlipSolids = false, noSlipBodies = false, removes = false, diffuses = false;
 };
 ArrayShape arrayShape(const FluidSetup& setup);
 /// An upper bound, from the scene alone.

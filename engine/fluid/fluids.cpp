@@ -25,7 +25,8 @@ double largestOf(const Scene& scene, Value&& value) {
   return largest;
 }
 
-double kinematic(const ResolvedFluid& fluid) { return fluid.viscosity / fluid.density; }
+double kinematic(const ResolvedFluid& fluid) { return largestViscosity(rheologyOf(fluid)) / fluid.density; }
+double kinematicAtRest(const ResolvedFluid& fluid) { return viscosityAt(rheologyOf(fluid), 0) / fluid.density; }
 
 constexpr std::array<float FluidParams::*, kMaxFluids> kInverseMasses{
     &FluidParams::inverseMass0, &FluidParams::inverseMass1, &FluidParams::inverseMass2, &FluidParams::inverseMass3,
@@ -36,6 +37,15 @@ constexpr std::array<float FluidParams::*, kMaxFluids> kViscosities{
 constexpr std::array<float FluidParams::*, kMaxFluids> kTensions{&FluidParams::tension0, &FluidParams::tension1, &FluidParams::tension2,
                                                                  &FluidParams::tension3, &FluidParams::tension4, &FluidParams::tension5,
                                                                  &FluidParams::tension6, &FluidParams::tension7};
+constexpr std::array<float FluidParams::*, kMaxFluids> kYields{&FluidParams::yield0, &FluidParams::yield1, &FluidParams::yield2,
+                                                               &FluidParams::yield3, &FluidParams::yield4, &FluidParams::yield5,
+                                                               &FluidParams::yield6, &FluidParams::yield7};
+constexpr std::array<float FluidParams::*, kMaxFluids> kConsistencies{
+    &FluidParams::consistency0, &FluidParams::consistency1, &FluidParams::consistency2, &FluidParams::consistency3,
+    &FluidParams::consistency4, &FluidParams::consistency5, &FluidParams::consistency6, &FluidParams::consistency7};
+constexpr std::array<float FluidParams::*, kMaxFluids> kThinnings{&FluidParams::thinning0, &FluidParams::thinning1, &FluidParams::thinning2,
+                                                                  &FluidParams::thinning3, &FluidParams::thinning4, &FluidParams::thinning5,
+                                                                  &FluidParams::thinning6, &FluidParams::thinning7};
 
 // Two of a row a word, as unpackUnorm2x16() reads them.
 void addCover(const InterfaceCover& cover, FluidParams& params) {
@@ -53,17 +63,25 @@ constexpr std::array<uint32_t FluidParams::*, kMaxDiffusing> kDiffusing{&FluidPa
 
 }  // namespace
 
+Rheology rheologyOf(const ResolvedFluid& fluid) { return {fluid.viscosity, fluid.yieldStress, fluid.flowIndex}; }
+
 double densestFluid(const Scene& scene) {
   return largestOf(scene, [](const ResolvedFluid& fluid) { return fluid.density; });
 }
 
 double largestViscosity(const Scene& scene) {
-  return largestOf(scene, [](const ResolvedFluid& fluid) { return fluid.viscosity; });
+  return largestOf(scene, [](const ResolvedFluid& fluid) { return largestViscosity(rheologyOf(fluid)); });
 }
 
 double largestKinematicViscosity(const Scene& scene) { return largestOf(scene, kinematic); }
 
-double smallestKinematicViscosity(const Scene& scene) { return kinematic(std::ranges::min(resolvedFluids(scene), {}, kinematic)); }
+double smallestKinematicViscosity(const Scene& scene) {
+  return kinematicAtRest(std::ranges::min(resolvedFluids(scene), {}, kinematicAtRest));
+}
+
+bool hasShearViscosity(const Scene& scene) {
+  return std::ranges::any_of(resolvedFluids(scene), [](const ResolvedFluid& fluid) { return isShearDependent(rheologyOf(fluid)); });
+}
 
 double leastDensityDifference(const Scene& scene) {
   std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
@@ -120,6 +138,18 @@ double fastestViscosity(const Scene& scene) {
 Float4 unmixed(const FluidParams& params, uint8_t fluid) {
   const auto share = [&](uint32_t diffusing) { return diffusing == fluid ? 1.0F : 0.0F; };
   return {share(params.diffusing0), share(params.diffusing1), share(params.diffusing2), share(params.diffusing3)};
+}
+
+void addShearViscosity(const Scene& scene, FluidSetup& setup) {
+  if (!hasShearViscosity(scene)) return;
+  setup.shearViscosity = true;
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  const double largest = largestViscosity(scene);
+  for (size_t k = 0; k < fluids.size(); ++k) {
+    setup.params.*kYields[k] = f(fluids[k].yieldStress / largest);
+    setup.params.*kConsistencies[k] = f(fluids[k].viscosity / largest);
+    setup.params.*kThinnings[k] = f(fluids[k].flowIndex - 1);
+  }
 }
 
 void addFluids(const Scene& scene, FluidSetup& setup) {

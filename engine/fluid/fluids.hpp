@@ -4,15 +4,19 @@
 #include "rill/vectors.hpp"
 #include "shared/fluid_records.h"
 #include "sph/interface_tension.hpp"
+#include "sph/shear_viscosity.hpp"
 
 namespace rill {
 
 struct FluidSetup;
 
+Rheology rheologyOf(const ResolvedFluid& fluid);
+
 double densestFluid(const Scene& scene);                ///< kg/m^3
-double largestViscosity(const Scene& scene);            ///< Pa s
-double largestKinematicViscosity(const Scene& scene);   ///< m^2/s
-double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s
+double largestViscosity(const Scene& scene);            ///< Pa s; at any rate of shear
+double largestKinematicViscosity(const Scene& scene);   ///< m^2/s; likewise
+double smallestKinematicViscosity(const Scene& scene);  ///< m^2/s, of a fluid at rest
+bool hasShearViscosity(const Scene& scene);             ///< whether shear changes the viscosity of a fluid
 double largestTension(const Scene& scene);              ///< surface tension, N/m
 double largestKinematicTension(const Scene& scene);     ///< what asks for the shortest step: tension over density, m^3/s^2
 
@@ -37,6 +41,9 @@ double fastestViscosity(const Scene& scene);
 
 /// Concentrations in a particle of one fluid that has not mixed, as shaders/fluid/fluids.glsl has them.
 Float4 unmixed(const FluidParams& params, uint8_t fluid);
+
+/// Sets FluidSetup::shearViscosity, and what shaders need of fluids whose viscosity shear changes. Without one there is nothing.
+void addShearViscosity(const Scene& scene, FluidSetup& setup);
 
 /// Sets FluidSetup::fluids and what shaders need of several fluids, and warns of density ratios beyond 1000. With one there is nothing.
 void addFluids(const Scene& scene, FluidSetup& setup);

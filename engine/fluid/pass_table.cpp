@@ -16,6 +16,7 @@ bool emits(const FluidSetup& s) { return !s.emitters.empty(); }
 bool drains(const FluidSetup& s) { return !s.drains.empty() || s.params.openRemoves != 0; }
 bool iterates(const FluidSetup& s) { return s.params.iterations > 1; }
 bool stepsOfViscosity(const FluidSetup& s) { return s.params.viscosityRate > 0 && s.params.viscositySteps > 1; }
+bool shearViscosity(const FluidSetup& s) { return s.shearViscosity; }
 bool viscous(const FluidSetup& s) { return s.params.viscosityRate > 0; }
 bool noSlip(const FluidSetup& s) { return s.noSlipSolids; }
 bool noSlipBodies(const FluidSetup& s) { return s.noSlipBodies; }
@@ -40,8 +41,9 @@ constexpr PassCondition kAlways, kSolids{solids, "no solids"}, kMoves{moves, "no
     kLoads{loads, "no loads asked for, and no bodies"}, kProbesPressure{probesPressure, "no probes of pressure"},
     kEmits{emits, "no emitters"}, kDrainsFluid{drains, "no drains, and no open sides that remove"},
     kIterates{iterates, "one iteration a substep"}, kViscous{viscous, "viscosity is 0"},
-    kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"}, kSwirls{swirls, "vorticity is 0"}, kTense{tense, "surface tension is 0"},
-    kDrags{drags, "drag is 0"}, kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep},
+    kShearViscosity{shearViscosity, "shear changes no viscosity"}, kNoSlip{noSlip, "no solid has slip false, or viscosity is 0"},
+    kSwirls{swirls, "vorticity is 0"}, kTense{tense, "surface tension is 0"}, kDrags{drags, "drag is 0"},
+    kNoisy{noisy, nullptr, &FluidSetup::whyNoNoiseDamping}, kSleeps{sleeps, nullptr, &FluidSetup::whyNoSleep},
     kRegions{regions, nullptr, &FluidSetup::whyNoRegions}, kFluids{several, "one fluid"}, kDiffuses{diffuses, "no fluid diffuses"};
 
 using P = FluidPass;
@@ -81,6 +83,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::DisplaceDensity, "density of solids", "fluid/solids", E::NearSolids, kSolve, kSolids},
     {P::Density, "density", "fluid/density", E::Gather, kSolve},
     {P::Control, "control", "fluid/control", E::One, {}, {separate}},
+    {P::ShearViscosity, "viscosity by shear", "fluid/shear_viscosity", E::Gather, kEnd, kShearViscosity},
     {P::Pairs, "pairs at solids", "fluid/pairs", E::NearGather, {S::Correct, S::Iterate}, kSolids},
     {P::Correct, "correct", "fluid/correct", E::Gather, kEnd},
     {P::Collide, "collide", "fluid/collide", E::NearSolids, kEnd, kSolids},
@@ -100,6 +103,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::NoSlipBodies, "no slip of bodies", "fluid/no_slip_bodies", E::Bodies, kEnd, {noSlipBodies}},
     {P::NoSlip, "no slip at bodies", "fluid/no_slip", E::NearSolids, kEnd, {noSlipAfterwards}},
     {P::NoSlipLoads, "no-slip loads", "fluid/no_slip_loads", E::One, kEnd, {noSlipLoads}},
+    {P::ViscousDisplacement, "viscous displacement", "fluid/viscous_displacement", E::Particles, kEnd, {shearViscosity}},
     {P::VelocityNoise, "velocity noise", "fluid/velocity_noise", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::NoiseDamping, "noise damping", "fluid/noise_damping", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::Diffusion, "diffusion", "fluid/diffusion", E::Gather, kDiffusion, kDiffuses},

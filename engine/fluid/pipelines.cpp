@@ -43,6 +43,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"CULL_SOLIDS", p.solidCount > kFewSolids},
           {"LOADS", setup.loads},
           {"BODIES", !setup.bodies.empty()},
+          {"SHEAR_VISCOSITY", setup.shearViscosity},
           {"NO_SLIP_WALLS", setup.noSlipWalls},
           {"NO_SLIP_SOLIDS", setup.noSlipSolids},
           {"REMOVES", setup.removes},

@@ -22,6 +22,7 @@
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
 #include "sph/liquid_scale.hpp"
+#include "sph/shear_viscosity.hpp"
 #include "sph/viscosity.hpp"
 
 namespace rill {
@@ -76,6 +77,10 @@ void setViscositySteps(const Scene& scene, const SmoothingKernel& kernel, FluidS
   const double rate = setup.params.viscosityRate * fastestViscosity(scene);
   const double bound = 1 + kCrowded * (latticeBound(rate * setup.longestStep, kernel) - 1);
   setup.params.viscositySteps = shared::viscositySteps(bound, kMaxSteps).count;
+  // Somewhat less than what the steps reach, so that rounding does not ask for one more.
+  if (!setup.shearViscosity) return;
+  setup.params.shearBound = f(0.99 * reachedBound(setup.params.viscositySteps));
+  setup.params.shearMoment = f(pairMoment(kernel, 4));
 }
 
 // As many stages as the longest block asks for where the fluid is somewhat denser than its rest lattice.
@@ -410,6 +415,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.separationSpeed = f(std::sqrt(strongestGravity(scene) * d) + kSeparationRate * d);
   addFluids(scene, setup);
   addTension(scene, setup);
+  addShearViscosity(scene, setup);
   setViscosity(scene, kernel, setup);
   setNoSlip(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);

@@ -80,6 +80,7 @@ struct FluidSetup {
   uint32_t fluids = 1;                    ///< number of them
   bool interfaces = false;                ///< some have tension between them
   bool walls = false;                     ///< the domain has a wall
+  bool shearViscosity = false;            ///< shear changes the viscosity of a fluid
   bool noSlipWalls = false;               ///< fluid sticks to them
   bool noSlipSolids = false;              ///< and to some solid
   bool noSlipBodies = false;              ///< one of which is a rigid body

@@ -28,6 +28,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});
   }
   alias(Particle, Work);
+  declare(graph, FluidPass::ShearViscosity, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Pairs, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Correct, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::Collide, Start::Correct);
@@ -84,6 +85,7 @@ void FluidImpl::declareViscosity(Graph& graph) {
     declare(graph, FluidPass::ViscosityStep, Start::Correct, ChunkPush{0, 0, step});
   }
   declareNoSlip(graph);
+  declare(graph, FluidPass::ViscousDisplacement, Start::Correct);
 }
 
 // Bodies first get the velocity that they will have, so that the fluid sticks to that.

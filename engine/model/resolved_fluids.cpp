@@ -20,14 +20,19 @@ void raiseTensions(const Scene& scene, std::vector<ResolvedFluid>& fluids) {
 }  // namespace
 
 std::vector<ResolvedFluid> resolvedFluids(const Scene& scene) {
-  const ResolvedFluid common{
-      .density = scene.fluid.density, .viscosity = scene.fluid.viscosity, .surfaceTension = scene.fluid.surface_tension};
+  const ResolvedFluid common{.density = scene.fluid.density,
+                             .viscosity = scene.fluid.viscosity,
+                             .yieldStress = scene.fluid.yield_stress,
+                             .flowIndex = scene.fluid.flow_index,
+                             .surfaceTension = scene.fluid.surface_tension};
   if (scene.fluids.empty()) return {common};
   std::vector<ResolvedFluid> fluids;
   for (const FluidMaterial& material : scene.fluids)
     fluids.push_back({.name = material.name,
                       .density = material.density.value_or(common.density),
                       .viscosity = material.viscosity.value_or(common.viscosity),
+                      .yieldStress = material.yield_stress.value_or(common.yieldStress),
+                      .flowIndex = material.flow_index.value_or(common.flowIndex),
                       .surfaceTension = material.surface_tension.value_or(common.surfaceTension),
                       .color = material.color,
                       .diffusion = material.diffusion});

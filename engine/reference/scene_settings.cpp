@@ -14,10 +14,16 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.spacing = scene.fluid.spacing;
   s.smoothingRatio = scene.fluid.smoothing_ratio;
   s.density = densestFluid(scene);
-  if (!scene.fluids.empty())
+  s.shearViscosity = setup.shearViscosity;
+  if (s.shearViscosity) s.shearBound = setup.params.shearBound;
+  if (!scene.fluids.empty() || s.shearViscosity)
     for (const ResolvedFluid& fluid : resolvedFluids(scene))
-      s.fluids.push_back(
-          {.density = fluid.density, .viscosity = fluid.viscosity, .surfaceTension = fluid.surfaceTension, .diffusion = fluid.diffusion});
+      s.fluids.push_back({.density = fluid.density,
+                          .viscosity = fluid.viscosity,
+                          .yieldStress = fluid.yieldStress,
+                          .flowIndex = fluid.flowIndex,
+                          .surfaceTension = fluid.surfaceTension,
+                          .diffusion = fluid.diffusion});
   s.origin = vec(origin);
   for (int a = 0; a < 3; ++a) {
     s.gravity[a] = scene.gravity[a];

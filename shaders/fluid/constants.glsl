@@ -28,5 +28,6 @@ layout(constant_id = 24) const bool REGIONS = false;   // regions of fluid at re
 layout(constant_id = 25) const bool FLUIDS = false;    // there are several fluids
 layout(constant_id = 26) const bool DIFFUSES = false;  // some of them diffuse
 layout(constant_id = 27) const bool INTERFACES = false;  // some have tension between them
+layout(constant_id = 28) const bool SHEAR_VISCOSITY = false;  // shear changes the viscosity of a fluid
 #define LIST_OVERSIZED_ID 13
 #endif

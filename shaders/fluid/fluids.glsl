@@ -77,10 +77,20 @@ float coverBy(uvec4 row, uint fluid) {
   return (fluid & 1u) == 0u ? pair.x : pair.y;
 }
 
+// xyz of a fluid whose viscosity shear may change: yield stress, consistency and flow index less 1; see FluidParams.
+vec3 rheologyOf(uint fluid) {
+  vec3 all[8] = vec3[](
+    vec3(params.yield0, params.consistency0, params.thinning0), vec3(params.yield1, params.consistency1, params.thinning1),
+    vec3(params.yield2, params.consistency2, params.thinning2), vec3(params.yield3, params.consistency3, params.thinning3),
+    vec3(params.yield4, params.consistency4, params.thinning4), vec3(params.yield5, params.consistency5, params.thinning5),
+    vec3(params.yield6, params.consistency6, params.thinning6), vec3(params.yield7, params.consistency7, params.thinning7));
+  return FLUIDS ? all[fluid] : all[0];
+}
+
 // Of a pair of particles: the harmonic mean, by which the shear stress is continuous.
+float harmonicMean(float one, float other) { return 2.0 * one * other / max(one + other, 1.0e-20); }
 float pairViscosity(uint a, uint b) {
   if (!FLUIDS) return 1.0;
-  float one = viscosityOf(a), other = viscosityOf(b);
-  return 2.0 * one * other / max(one + other, 1.0e-20);
+  return harmonicMean(viscosityOf(a), viscosityOf(b));
 }
 #endif

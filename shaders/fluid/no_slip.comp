@@ -16,17 +16,18 @@ READ_FLOAT4(5, table)
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 8) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
+READ_FLOAT4(10, priorVelocity)
 #include "fluid/no_slip.glsl"
 #include "fluid/solid_sums.glsl"
 
-void addReactions(uvec3 near, vec3 x, vec3 v, uint fluid) {
+void addReactions(uvec3 near, vec3 x, vec3 v, uint fluid, float mobile) {
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
       vec3 toward = velocityAt(solids[k].pose, image) - imageVelocity(signs, v);
-      addToSolid(k, control.step / inverseMassOf(fluid) * adhesion(k, image, fluid) * toward, image);
+      addToSolid(k, control.step / inverseMassOf(fluid) * adhesion(k, image, mobile) * toward, image);
     }
     more = advance(images);
   } LOOP_END(more);
@@ -38,12 +39,13 @@ void main() {
   uvec4 near = nearSolidsAt(n);
   uvec4 particle = workAt(near.x);
   uint fluid = fluidOfWork(particle);
+  float mobile = mobility(near.x, fluid);
   vec3 x = uintBitsToFloat(particle.xyz);
   if (!isActive(x)) return;
   vec3 v = velocity[near.x].xyz;
   if (BODIES) {
-    Adhesion a = adhesionAt(near.yzw, x, fluid, true);
+    Adhesion a = adhesionAt(near.yzw, x, mobile, true);
     if (a.all > 0.0) velocity[near.x].xyz = v = (v + a.pull) / (1.0 + a.all);
   }
-  if (LOADS) addReactions(near.yzw, x, v, fluid);
+  if (LOADS) addReactions(near.yzw, x, v, fluid, mobile);
 }

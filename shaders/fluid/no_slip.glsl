@@ -11,14 +11,19 @@
 // A particle's velocity in the image with these signs, and the other way round.
 vec3 imageVelocity(vec3 signs, vec3 v) { return NO_SLIP_WALLS ? signs.x * signs.y * signs.z * signs * v : signs * v; }
 
-// The coefficient of solid k at x, an image of a particle of a fluid; 0 of a solid that slips.
-float adhesion(uint k, vec3 x, uint fluid) {
+// How the solids near particle i hold it, but for the solids' share: its viscosity over its mass.
+float mobility(uint i, uint fluid) {
+  return inverseMassOf(fluid) * (SHEAR_VISCOSITY && i < control.solved ? priorVelocityAt(i).w : viscosityOf(fluid));
+}
+
+// The coefficient of solid k at x, an image of a particle; 0 of a solid that slips.
+float adhesion(uint k, vec3 x, float mobility) {
   if (solids[k].noSlip == 0u) return 0.0;
   vec3 normal, gradient = solidSample(solids[k], x).xyz;
   if (gradient == vec3(0.0)) return 0.0;
   gradient *= shareOfImage(solids[k], x);
   float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
-  float rate = inverseMassOf(fluid) * viscosityOf(fluid) * params.viscosityRate;
+  float rate = mobility * params.viscosityRate;
   return rate * control.step * length(gradient) * line(params.noSlipTable, params.tableNodes, distance).x;
 }
 
@@ -29,7 +34,7 @@ struct Adhesion {
 };
 
 // Of bodies, or of the other solids.
-Adhesion adhesionAt(uvec3 near, vec3 x, uint fluid, bool ofBodies) {
+Adhesion adhesionAt(uvec3 near, vec3 x, float mobility, bool ofBodies) {
   Adhesion sum = Adhesion(0.0, vec3(0.0));
   Images images = imagesNear(x, params.support);
   bool more = true;
@@ -37,7 +42,7 @@ Adhesion adhesionAt(uvec3 near, vec3 x, uint fluid, bool ofBodies) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
       if ((solids[k].body != kNoBody) != ofBodies) continue;
-      float a = adhesion(k, image, fluid);
+      float a = adhesion(k, image, mobility);
       sum.all += a;
       sum.pull += a * imageVelocity(signs, velocityAt(solids[k].pose, image));
     }

@@ -15,6 +15,7 @@ layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)
 layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 8) writeonly buffer HoldBlock { vec4 hold[]; };
+READ_FLOAT4(9, priorVelocity)
 #include "fluid/no_slip.glsl"
 
 void main() {
@@ -24,6 +25,6 @@ void main() {
   uvec4 particle = workAt(near.x);
   vec3 x = uintBitsToFloat(particle.xyz);
   Adhesion a = Adhesion(0.0, vec3(0.0));
-  if (isActive(x)) a = adhesionAt(near.yzw, x, fluidOfWork(particle), false);
+  if (isActive(x)) a = adhesionAt(near.yzw, x, mobility(near.x, fluidOfWork(particle)), false);
   hold[near.x] = vec4(a.pull, a.all);
 }

@@ -18,6 +18,7 @@ layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; }
 layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 10) readonly buffer BodyBlock { BodyRecord bodies[]; };
+READ_FLOAT4(11, priorVelocity)
 #include "fluid/no_slip.glsl"
 #include "fluid/solid_sums.glsl"
 
@@ -41,9 +42,10 @@ void main() {
   uvec4 near = nearSolidsAt(n);
   uvec4 particle = workAt(near.x);
   uint fluid = fluidOfWork(particle);
+  float mobile = mobility(near.x, fluid);
   vec3 x = uintBitsToFloat(particle.xyz), v = velocity[near.x].xyz;
   if (!isActive(x)) return;
-  Adhesion all = adhesionAt(near.yzw, x, fluid, true);
+  Adhesion all = adhesionAt(near.yzw, x, mobile, true);
   if (!(all.all > 0.0)) return;
   Images images = imagesNear(x, params.support);
   bool more = true;
@@ -51,7 +53,7 @@ void main() {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
       if (solids[k].body == kNoBody || bodies[solids[k].body].held != 0u || bodies[solids[k].body].stopped != 0u) continue;
-      float a = adhesion(k, image, fluid), others = 1.0 + all.all - a;
+      float a = adhesion(k, image, mobile), others = 1.0 + all.all - a;
       if (!(a > 0.0)) continue;
       vec3 own = velocityAt(solids[k].pose, image), free = (v + all.pull - a * imageVelocity(signs, own)) / others;
       addToBody(k, a * others / (others + a) / inverseMassOf(fluid), image, imageVelocity(signs, free) - own);

@@ -13,7 +13,9 @@ layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(8, velocity)
 layout(std430, binding = 9) writeonly buffer ResidualBlock { vec4 residual[]; };
 layout(std430, binding = 10) readonly buffer HoldBlock { vec4 hold[]; };
-#define COMPANION(j) velocityAt(j)
+READ_FLOAT4(11, priorVelocity)
+// Where shear changes viscosities the solve starts from the velocities before the substep: a fluid that creeps nearly has the solution.
+#define COMPANION(j) (SHEAR_VISCOSITY ? priorVelocityAt(j) : velocityAt(j))
 #define BOUNDS
 #include "fluid/viscous_force.glsl"
 
@@ -24,5 +26,5 @@ void main() {
   if (inRange) held = HOLD_AT(i);
   float most = subgroupMax(eigenvalueBound() + held.w);
   if (subgroupElect()) atomicMax(sums.viscosityBound, floatBitsToUint(most));
-  if (inRange) residual[i] = vec4(sleeps(head) ? vec3(0.0) : force + held.xyz - held.w * own.xyz, 0.0);
+  if (inRange) residual[i] = vec4(sleeps(head) ? vec3(0.0) : force + held.xyz - held.w * own.xyz, SHEAR_VISCOSITY ? own.w : 0.0);
 }

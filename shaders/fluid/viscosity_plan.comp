@@ -7,10 +7,11 @@ layout(local_size_x = 1) in;
 layout(std430, binding = 2) buffer SumsBlock { FluidSums sums; };
 
 void main() {
-  ViscositySteps steps = viscositySteps(uintBitsToFloat(sums.viscosityBound), params.viscositySteps);
+  float bound = uintBitsToFloat(sums.viscosityBound), reached = SHEAR_VISCOSITY ? min(bound, params.shearBound) : bound;
+  ViscositySteps steps = viscositySteps(reached, params.viscositySteps);
   sums.viscositySteps = steps.count;
   sums.viscosityCenter = steps.center;
   sums.viscosityHalfWidth = steps.halfWidth;
   sums.viscosityDecay = steps.decay;
-  if (steps.remaining > kViscosityRemaining) sums.viscosityBoundHits += 1u;
+  if (steps.remaining > kViscosityRemaining || bound > reached) sums.viscosityBoundHits += 1u;
 }

@@ -17,17 +17,24 @@ layout(std430, binding = 11) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 12) readonly buffer HoldBlock { vec4 hold[]; };
 #define COMPANION(j) directionFromAt(j)
 #include "fluid/viscous_force.glsl"
+#include "fluid/viscosity_scale.glsl"
 
 void main() {
   uint k = push.iteration;
   if (k >= sums.viscositySteps) return;
   uint i;
   if (!gatherForce(i)) return;
-  vec3 d = own.xyz, r = residual[i].xyz - (1.0 + HOLD_AT(i).w) * d + force;
+  float held = HOLD_AT(i).w;
+  if (SHEAR_VISCOSITY) {
+    float scale = viscosityScale(sums.viscosityBound);
+    force *= scale;
+    held *= scale;
+  }
+  vec3 d = own.xyz, r = residual[i].xyz - (1.0 + held) * d + force;
   float ratio = chebyshevRatio(sums.viscosityDecay, k);
   d = ratio * (chebyshevRatio(sums.viscosityDecay, k - 1u) * d + 2.0 / sums.viscosityHalfWidth * r);
   residual[i].xyz = r;
-  directionTo[i] = vec4(d, 0.0);
+  directionTo[i] = vec4(d, SHEAR_VISCOSITY ? own.w : 0.0);
   velocity[i].xyz += d;
   if (i == 0u) directionTo[params.capacity] = vec4(0.0);
 }

@@ -16,9 +16,14 @@ vec3 force = vec3(0.0);
 vec3 diagonal = vec3(0.0), mixed = vec3(0.0);  // of sum_j (1-q)^3 q q^T; mixed: yz, zx, xy
 #endif
 
+// Where shear changes viscosities, each particle's is w of its companion.
+float viscosityWith(uvec4 particle, vec4 companion) {
+  return SHEAR_VISCOSITY ? harmonicMean(own.w, companion.w) : pairViscosity(fluid, fluidOfWork(particle));
+}
+
 void visit(uvec4 particle, vec4 companion) {
   vec3 q = (here - uintBitsToFloat(particle.xyz)) * inverseSupport;
-  float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = pairViscosity(fluid, fluidOfWork(particle)) * t * t * t;
+  float t = max(1.0 - sqrt(dot(q, q)), 0.0), weight = viscosityWith(particle, companion) * t * t * t;
   force += weight * dot(q, companion.xyz - own.xyz) * q;
 #ifdef BOUNDS
   diagonal += weight * q * q;

@@ -142,6 +142,13 @@ struct FluidParams {
   uint cover5A, cover5B, cover5C, cover5D;
   uint cover6A, cover6B, cover6C, cover6D;
   uint cover7A, cover7B, cover7C, cover7D;
+  // Where shear changes viscosities (engine/sph/shear_viscosity.hpp), of each fluid: yield stress, 1/s, and consistency, s^(n-1), over the
+  // largest viscosity; flow index less 1.
+  float yield0, yield1, yield2, yield3, yield4, yield5, yield6, yield7;
+  float consistency0, consistency1, consistency2, consistency3, consistency4, consistency5, consistency6, consistency7;
+  float thinning0, thinning1, thinning2, thinning3, thinning4, thinning5, thinning6, thinning7;
+  float shearMoment;      // sum of weights times q^4 of the rest lattice
+  float shearBound;       // of the eigenvalues of the solve for viscosity, by which a particle's is bounded
 };
 RILL_CONST uint kNoFluid = 0xFFFFFFFFu;
 

@@ -31,6 +31,7 @@ class CompilingTest : public ::testing::Test {
     Scene scene;
     scene.fluid.spacing = 0.1;
     scene.fluid.viscosity = 1;
+    scene.fluid.yield_stress = 20;
     scene.fluid.vorticity = 0.5;
     scene.fluid.surface_tension = 0.5;
     scene.fluid.drag = 1;

@@ -75,6 +75,8 @@ TEST(FluidsScene, RejectsInvalidMaterialsNamingTheKey) {
       {withOil(R"("density": 1e-36)"),
        "fluids[0].density: the mass of a particle, density x spacing^3, is 1e-39 kg; expected a mass that fits a 32-bit float"},
       {withOil(R"("viscosity": -0.1)"), "fluids[0].viscosity: -0.1 is out of range; expected a number of at least 0 (Pa s)"},
+      {withOil(R"("yield_stress": -1)"), "fluids[0].yield_stress: -1 is out of range; expected a number of at least 0 (Pa)"},
+      {withOil(R"("flow_index": 2.5)"), "fluids[0].flow_index: 2.5 is out of range; expected a number from 0.2 to 2"},
       {withOil(R"("diffusion": -1e-9)"), "fluids[0].diffusion: -1e-09 is out of range; expected a number of at least 0 (m^2/s)"},
       {fluidScene(R"("fluids": [{"name": "1", "diffusion": 1}, {"name": "2"}, {"name": "3", "diffusion": 1}, {"name": "4", "diffusion": 1},
          {"name": "5", "diffusion": 1}, {"name": "6", "diffusion": 0.5}])"),

@@ -24,7 +24,9 @@ struct FluidSettings {
   uint64_t particles = 0;        ///< approximate number of particles; 0 if `spacing` is given
   double density = 1000;         ///< rest density, kg/m^3, > 0
   double smoothing_ratio = 2.3;  ///< smoothing length (support radius of the kernel) over spacing, 1.2 .. 4
-  double viscosity = 0;          ///< dynamic viscosity, Pa s, >= 0
+  double viscosity = 0;          ///< dynamic viscosity, Pa s, >= 0; with a flow_index other than 1 the consistency, Pa s^n
+  double yield_stress = 0;       ///< shear stress below which the fluid stands, Pa, >= 0
+  double flow_index = 1;         ///< n of the shear stress yield_stress + viscosity rate^n, 0.2 .. 2; below 1 it thins when sheared
   double surface_tension = 0;    ///< against air, N/m, >= 0; 0: none
   double contact_angle = 90;     ///< of its surface with walls and solids, through the fluid, degrees, 0 .. 180
   double vorticity = 0;          ///< strength of vorticity confinement (Macklin and Mueller 2013, eq. 16), 0 .. 1
@@ -41,6 +43,8 @@ struct FluidMaterial {
   std::string name = {};                       ///< unique among fluids, not empty
   std::optional<double> density = {};          ///< rest density, kg/m^3, > 0; empty: that of FluidSettings
   std::optional<double> viscosity = {};        ///< dynamic viscosity, Pa s, >= 0; empty: that of FluidSettings
+  std::optional<double> yield_stress = {};     ///< Pa, >= 0; empty: that of FluidSettings
+  std::optional<double> flow_index = {};       ///< 0.2 .. 2; empty: that of FluidSettings
   std::optional<double> surface_tension = {};  ///< against air, N/m, >= 0; empty: that of FluidSettings
   std::optional<Double3> color = {};           ///< of the light that 10 cm of it let through, linear RGB, 0 .. 1; empty: that of the look
   double diffusion = 0;  ///< diffusivity of it in the other fluids, m^2/s, >= 0; above 0 in at most kMaxDiffusing fluids

@@ -235,7 +235,9 @@ struct Scene {
 struct ResolvedFluid {
   std::string name = "fluid";
   double density = 1000;              ///< kg/m^3
-  double viscosity = 0;               ///< Pa s
+  double viscosity = 0;               ///< Pa s, or Pa s^n
+  double yieldStress = 0;             ///< Pa
+  double flowIndex = 1;               ///< n
   double surfaceTension = 0;          ///< N/m, against air; with what interfaces add
   std::optional<Double3> color = {};  ///< as FluidMaterial::color
   double diffusion = 0;               ///< m^2/s
