@@ -54,6 +54,7 @@ std::vector<Experiment> jetExperiments();
 std::vector<Experiment> liftExperiments();        ///< lift of held solids
 std::vector<Experiment> bodyExperiments();        ///< rigid bodies in water
 std::vector<Experiment> slipExperiments();        ///< viscous fluid that sticks to walls, solids and bodies
+std::vector<Experiment> shearExperiments();       ///< viscosity that depends on shear: plates, slumps
 std::vector<Experiment> waterEntryExperiments();  ///< force on a wedge
 std::vector<Experiment> tapExperiments();         ///< level of a tank that a tap fills
 std::vector<Experiment> channelExperiments();     ///< laminar flow from an emitter to an open side

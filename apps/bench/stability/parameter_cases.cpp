@@ -43,7 +43,9 @@ void set(Owner& owner, const model::Field<Owner, Value>& field, double value) {
 bool isTested(std::string_view key) { return key != "spacing" && key != "particles" && key != "capacity"; }
 
 /// Keys that random scenes get further below.
-bool isOfTension(std::string_view key) { return key == "surface_tension" || key == "contact_angle"; }
+bool isDrawnLater(std::string_view key) {
+  return key == "surface_tension" || key == "contact_angle" || key == "yield_stress" || key == "flow_index";
+}
 
 /// Of a drop of one particle, m/s.
 double capillarySpeed(const Scene& scene) {
@@ -63,6 +65,7 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
       Scene scene = smallDam();
       if (field.info.key.starts_with("tensile_")) scene.fluid.tensile = 1;  // enables artificial pressure, which these keys shape
       if (field.info.key == "contact_angle") scene.fluid.surface_tension = 1;
+      if (field.info.key == "flow_index") scene.fluid.viscosity = 1;
       set(scene.*part, field, value);
       const std::string shown = words ? std::string(field.info.words[static_cast<size_t>(value)]) : number(value, 7);
       std::string name = owner + ".";
@@ -117,7 +120,7 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
     for (double& g : scene.gravity) g = chance(0.7) ? uniform(-10, 10) : 0;
     const auto randomize = [&](auto& owner, double probability) {
       model::forEachField<std::remove_reference_t<decltype(owner)>>([&](const auto& field) {
-        if (!isTested(field.info.key) || isOfTension(field.info.key) || !chance(probability)) return;
+        if (!isTested(field.info.key) || isDrawnLater(field.info.key) || !chance(probability)) return;
         const bool words = !field.info.words.empty();
         const double low = words ? 0 : lowest(field.info.range),
                      high = words ? double(field.info.words.size() - 1) : highest(field.info.range);
@@ -159,6 +162,10 @@ std::vector<StressCase> randomCases(uint64_t first, uint64_t count) {
       const double tension = scene.fluid.density * 10 * d * d * std::pow(10, double(seed / 4 % 4) - 2);
       scene.interfaces = {{.between = {"0", "1"}, .tension = tension}};
       if (scene.fluids.size() > 2) scene.interfaces.push_back({.between = {"2", "0"}, .tension = tension / 3});
+    }
+    if (seed % 6 == 4) {
+      scene.fluid.yield_stress = scene.fluid.density * 10 * d * std::pow(10, double(seed % 5) - 2);  // of 0.01 to 100 layers' weight
+      scene.fluid.flow_index = 0.2 + 0.1 * double(seed % 19);
     }
     StressCase c{.name = "random-" + std::to_string(seed), .scene = scene};
     c.duration_s = 12 * std::sqrt(d / 10);

@@ -72,6 +72,9 @@ std::vector<Feature> features() {
        {{"rill", "\"0.2\""}, {"fluid.viscosity", "1"}, {"domain.slip", "false"}},
        {{"rill", "\"0.2\""}, {"domain.slip", "false"}}},
       {"viscosity, no-slip box", {{"rill", "\"0.2\""}, {"fluid.viscosity", "1"}, {"solids", kNoSlipBox}}},
+      {"yield stress",
+       {{"rill", "\"0.2\""}, {"fluid.viscosity", "1"}, {"fluid.yield_stress", "20"}},
+       {{"rill", "\"0.2\""}, {"fluid.yield_stress", "0"}, {"fluid.flow_index", "0.5"}}},
       {"vorticity", {{"fluid.vorticity", "0.2"}}, {{"fluid.vorticity", "0"}}},
       {"drag", {{"rill", "\"0.2\""}, {"fluid.drag", "0.5"}}, {{"rill", "\"0.2\""}, {"fluid.drag", "0"}}},
       // When it is off, its other settings must have no effect.
