@@ -140,6 +140,8 @@ constexpr Band kBands[] = {
     {"thread", "mean radius of drops", 0.15, {0.35, 0.25, 0.15}, "%", kThread},
     {"thread", "distance of drops", 0.15, {1.5, 0.8, 0.5}, "%", kThread},
     {"rayleigh-taylor", "growth rate", 0.1, {0.16, 0.1, 0.12}, "%", "the lattice of the start gives way while the wave grows"},
+    {"bubble", "largest rise speed", 0.1, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"bubble", "height after 3 s", 0.1, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
     {"lock-exchange", "Froude number", 0.1, {0.55, 0.5, 0.46}, "%", kShear},
     {"diffusion", "amount that has passed", 0.02, {0.02, 0.02, 0.02}, "%", ""},
     {"diffusion", "share, rms", 0.02, {0.02, 0.01, 0.01}, "%", ""},

@@ -64,6 +64,7 @@ std::vector<Experiment> lakeExperiments();        ///< a tank with regions that 
 std::vector<Experiment> jumpExperiments();        ///< depths of a hydraulic jump
 std::vector<Experiment> mixtureExperiments();     ///< several fluids: layers, Rayleigh-Taylor, lock exchange, diffusion
 std::vector<Experiment> oilDropExperiments();     ///< tension between liquids
+std::vector<Experiment> bubbleExperiments();      ///< bubbles that rise in a thick liquid
 std::vector<Experiment> dropExperiments();        ///< surface tension: drops, rise between plates, threads
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 

@@ -38,8 +38,8 @@ std::vector<Experiment> experiments() {
   for (const auto& family : {columnExperiments(),   tankExperiments(), sloshExperiments(),   ellipticExperiments(), freeExperiments(),
                              jetExperiments(),      liftExperiments(), bodyExperiments(),    slipExperiments(),     waterEntryExperiments(),
                              obstacleExperiments(), tapExperiments(),  channelExperiments(), orificeExperiments(),  weirExperiments(),
-                             jumpExperiments(),     lakeExperiments(), mixtureExperiments(), dropExperiments(),     oilDropExperiments(),
-                             shearExperiments()})
+                             jumpExperiments(),     lakeExperiments(), mixtureExperiments(), bubbleExperiments(),   dropExperiments(),
+                             oilDropExperiments(),  shearExperiments()})
     all.insert(all.end(), family.begin(), family.end());
   return all;
 }
