@@ -119,13 +119,13 @@ bool hasInterfaces(const Scene& scene) {
   return std::ranges::any_of(scene.interfaces, [](const FluidInterface& pair) { return pair.tension > 0; });
 }
 
-// The curvature of a sample's energy goes with the square of m_ab.
+// What a particle does to samples that it covers in part goes with the square of m_ab.
 KinematicTension kinematicTension(const std::vector<ResolvedFluid>& fluids, const InterfaceCover& cover, size_t k) {
-  KinematicTension fastest;
+  KinematicTension fastest{k, fluids[k].surfaceTension / fluids[k].density};
   for (size_t b = 0; b < fluids.size(); ++b) {
-    if (b != k && cover[k][b] == 1) continue;
+    if (b == k || cover[k][b] == 1) continue;
     const double value = cover[k][b] * cover[k][b] * fluids[b].surfaceTension / fluids[k].density;
-    if (b == k || value > fastest.value) fastest = {b, std::max(value, fastest.value)};
+    if (value > fastest.value) fastest = {b, value};
   }
   return fastest;
 }

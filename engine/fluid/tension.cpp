@@ -30,10 +30,8 @@ void warnOfRaisedTensions(const Scene& scene, FluidSetup& setup) {
   const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
   for (size_t k = 0; k < scene.fluids.size(); ++k)
     if (const double given = scene.fluids[k].surface_tension.value_or(scene.fluid.surface_tension); given < fluids[k].surfaceTension)
-      setup.warnings.push_back("fluids." + fluids[k].name + ".surface_tension: found " + roundedNumber(given) +
-                               " N/m; expected tensions against air of which two are at least that of their interface together; it is "
-                               "simulated with " +
-                               roundedNumber(fluids[k].surfaceTension) + " N/m");
+      setup.warnings.push_back("fluids." + fluids[k].name + ".surface_tension: found " + roundedNumber(given) + " N/m, expected at least " +
+                               roundedNumber(fluids[k].surfaceTension) + " for the tension of its interfaces; it is simulated with that");
 }
 
 }  // namespace

@@ -146,8 +146,8 @@ struct Table<FluidInterface> {
       Field{Info{.key = "tension",
                  .unit = "N/m",
                  .range = atLeast(0),
-                 .help = "interfacial tension: oil and water have 0.02 to 0.05. At most the sum of their surface tensions, which are else "
-                         "raised to it"},
+                 .help = "interfacial tension: oil and water have 0.02 to 0.05. At most the sum of their surface tensions: otherwise "
+                         "both are raised"},
             &FluidInterface::tension}};
 };
 

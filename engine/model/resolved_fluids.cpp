@@ -5,15 +5,15 @@
 namespace rill {
 namespace {
 
-// Between fluids that have less tension against air than between them, air would come.
+// Between fluids that have less tension against air than between them a film of air would form. Each gets what the pair that it is in asks
+// for the most, in equal parts, whatever their order.
 void raiseTensions(const Scene& scene, std::vector<ResolvedFluid>& fluids) {
+  const std::vector<ResolvedFluid> given = fluids;
   for (const FluidInterface& pair : scene.interfaces) {
     const size_t a = fluidIndex(scene, pair.between.first), b = fluidIndex(scene, pair.between.second);
     if (a >= fluids.size() || b >= fluids.size()) continue;  // checkScene() refuses it
-    const double missing = pair.tension - fluids[a].surfaceTension - fluids[b].surfaceTension;
-    if (!(missing > 0)) continue;
-    fluids[a].surfaceTension += missing / 2;
-    fluids[b].surfaceTension += missing / 2;
+    const double missing = std::max(pair.tension - given[a].surfaceTension - given[b].surfaceTension, 0.0);
+    for (const size_t k : {a, b}) fluids[k].surfaceTension = std::max(fluids[k].surfaceTension, given[k].surfaceTension + missing / 2);
   }
 }
 

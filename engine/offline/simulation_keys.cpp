@@ -124,9 +124,10 @@ const std::string* find(const SimulationKeys& keys, const std::string& key) {
 void addNamedFluids(const Scene& scene, SimulationKeys& keys) {
   if (scene.fluids.empty()) return;
   for (size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const auto& [one, other] = scene.interfaces[i].between;
+    const auto [first, second] =
+        std::minmax({fluidIndex(scene, scene.interfaces[i].between.first), fluidIndex(scene, scene.interfaces[i].between.second)});
     keys.emplace_back(memberPath(elementPath("interfaces", i), "between"),
-                      std::to_string(fluidIndex(scene, one)) + " " + std::to_string(fluidIndex(scene, other)));
+                      "fluids " + std::to_string(first) + " and " + std::to_string(second));
   }
   const auto add = [&](const std::string& path, const std::string& name) {
     keys.emplace_back(memberPath(path, "fluid"), std::to_string(fluidIndex(scene, name)));

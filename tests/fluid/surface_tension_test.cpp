@@ -66,7 +66,7 @@ TEST_F(SurfaceTensionTest, SeveralFluidsMatchReference) {
   expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
 }
 
-/// Particles of `count` fluids in any order, the first two of which have tension between them.
+/// Particles of `count` fluids in any order, some of which have tension between them.
 Trial withInterfaces(size_t count) {
   Trial t = withTension();
   t.scene.fluids = {{.name = "water", .surface_tension = 100}, {.name = "oil", .density = 500}, {.name = "none", .surface_tension = 0}};
@@ -193,9 +193,26 @@ TEST_F(SurfaceTensionTest, RaisesTensionsThatInterfacesExceed) {
   scene.interfaces[0].tension = 90;
   EXPECT_EQ(resolvedFluids(scene)[0].surfaceTension, 80);
   EXPECT_EQ(resolvedFluids(scene)[1].surfaceTension, 10);
-  const std::string why = "expected tensions against air of which two are at least that of their interface together";
-  EXPECT_EQ(warningsWith(scene, "fluids.water.surface_tension: found 70 N/m; " + why + "; it is simulated with 80 N/m"), 1);
-  EXPECT_EQ(warningsWith(scene, "fluids.oil.surface_tension: found 0 N/m; " + why + "; it is simulated with 10 N/m"), 1);
+  const std::string why = " for the tension of its interfaces; it is simulated with that";
+  EXPECT_EQ(warningsWith(scene, "fluids.water.surface_tension: found 70 N/m, expected at least 80" + why), 1);
+  EXPECT_EQ(warningsWith(scene, "fluids.oil.surface_tension: found 0 N/m, expected at least 10" + why), 1);
+  scene.fluids = {{.name = "a"}, {.name = "b"}, {.name = "c"}};
+  for (const bool first : {true, false}) {
+    scene.interfaces = {{.between = {"a", first ? "b" : "c"}, .tension = 100}, {.between = {"a", first ? "c" : "b"}, .tension = 100}};
+    for (size_t k = 0; k < 3; ++k) EXPECT_EQ(resolvedFluids(scene)[k].surfaceTension, 50) << "in any order";
+  }
+}
+
+// A light fluid feels what it covers in part of a heavy one's surface.
+TEST_F(SurfaceTensionTest, WarningsNameTheFluidThatBoundsTheStep) {
+  Scene scene = trial().scene;
+  scene.solver.time_step = 1;
+  for (const bool lightFirst : {true, false}) {
+    scene.fluids = {{.name = "water", .surface_tension = 72}, {.name = "air", .density = 1, .surface_tension = 0}};
+    if (lightFirst) std::swap(scene.fluids[0], scene.fluids[1]);
+    scene.interfaces = {{.between = {"air", "water"}, .tension = 36}};
+    EXPECT_EQ(warningsWith(scene, "solver.time_step 1 s is more than fluids.water.surface_tension 72 N/m allows at this spacing: "), 1);
+  }
 }
 
 TEST_F(SurfaceTensionTest, MomentumIsConserved) {

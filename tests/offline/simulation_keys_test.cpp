@@ -51,6 +51,25 @@ TEST(SimulationKeys, FindADifferentFlowButNoOtherName) {
   EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "drains[0].sphere.center: not set, expected [1,2,3]");
 }
 
+TEST(SimulationKeys, FindADifferentInterfaceButNoOtherNames) {
+  Scene scene;
+  scene.fluids = {{.name = "water"}, {.name = "oil"}, {.name = "tar"}};
+  scene.interfaces = {{.between = {"oil", "water"}, .tension = 0.02}};
+  const SimulationKeys keys = simulationKeys(scene, {});
+  EXPECT_EQ(valueOf(keys, "interfaces[0].between"), "fluids 0 and 1");
+  Scene other = scene;
+  other.fluids[1].name = "fat";
+  other.interfaces[0].between = {"water", "fat"};
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "");
+  other.interfaces[0].between = {"water", "tar"};
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "interfaces[0].between: found fluids 0 and 2, expected fluids 0 and 1");
+  other = scene;
+  other.interfaces[0].tension = 0.03;
+  EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "interfaces[0].tension: found 0.03, expected 0.02");
+  other.interfaces.clear();
+  EXPECT_NE(firstDifference(keys, simulationKeys(other, {})), "");
+}
+
 Scene withFluids() {
   Scene scene = withFlows();
   scene.fluids = {{.name = "water"}, {.name = "oil", .density = 900, .color = Double3{1, 0, 0}}};

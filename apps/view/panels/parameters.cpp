@@ -170,7 +170,8 @@ void fluidsGroup(Board& board, const Scene& scene) {
     model::forEachField<FluidMaterial>([&](const auto& field) {
       if (field.info.key == "density") KeyField(board, path, field.info).draw(fluids[k].density);
       if (field.info.key == "viscosity") KeyField(board, path, field.info).draw(fluids[k].viscosity);
-      if (field.info.key == "surface_tension") KeyField(board, path, field.info).draw(fluids[k].surfaceTension);
+      if (field.info.key == "surface_tension")
+        KeyField(board, path, field.info).draw(scene.fluids[k].surface_tension.value_or(scene.fluid.surface_tension));
       if (field.info.key == "yield_stress") KeyField(board, path, field.info).draw(fluids[k].yieldStress);
       if (field.info.key == "flow_index") KeyField(board, path, field.info).draw(fluids[k].flowIndex);
     });

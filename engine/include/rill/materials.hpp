@@ -50,7 +50,7 @@ struct FluidMaterial {
   double diffusion = 0;  ///< diffusivity of it in the other fluids, m^2/s, >= 0; above 0 in at most kMaxDiffusing fluids
 };
 
-/// Tension between two of several fluids. At most the sum of their surface tensions: else these are raised to it.
+/// Tension between two of several fluids. At most the sum of their surface tensions: otherwise both are raised.
 struct FluidInterface {
   std::pair<std::string, std::string> between = {};  ///< names of two of Scene::fluids
   double tension = 0;                                ///< N/m, >= 0
