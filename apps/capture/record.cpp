@@ -303,7 +303,10 @@ std::vector<std::string> Record::warnings() const {
                        "solver.time_step allow");
   if (last.viscosityBoundHits > 0)
     warnings.push_back("warning: in " + grouped(last.viscosityBoundHits) + " substeps viscosity needed more steps than its solve takes: " +
-                       (scene_->fluids.empty() ? "fluid.viscosity" : "that of the fluids") + " acted as less");
+                       (!scene_->fluids.empty()          ? "that of the fluids"
+                        : scene_->fluid.yield_stress > 0 ? "fluid.yield_stress"
+                                                         : "fluid.viscosity") +
+                       " acted as less");
   if (last.diffusionBoundHits > 0)
     warnings.push_back("warning: " + grouped(last.diffusionBoundHits) +
                        " steps of diffusion needed more stages than they take: that of the " + "fluids acted as less");

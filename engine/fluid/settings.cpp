@@ -15,6 +15,7 @@
 #include "fluid/tension.hpp"
 #include "shape/pose.hpp"
 #include "shared/diffusion_steps.h"
+#include "shared/shear_viscosity.h"
 #include "shared/surface_tension.h"
 #include "shared/viscosity_steps.h"
 #include "sph/artificial_pressure.hpp"
@@ -75,7 +76,8 @@ void setViscositySteps(const Scene& scene, const SmoothingKernel& kernel, FluidS
   constexpr double kCrowded = 1.5;
   if (largestViscosity(scene) <= 0) return;
   const double rate = setup.params.viscosityRate * fastestViscosity(scene);
-  const double bound = 1 + kCrowded * (latticeBound(rate * setup.longestStep, kernel) - 1);
+  const double room = setup.shearViscosity ? kCrowded * double{kShearMargin} : kCrowded;
+  const double bound = 1 + room * (latticeBound(rate * setup.longestStep, kernel) - 1);
   setup.params.viscositySteps = shared::viscositySteps(bound, kMaxSteps).count;
   // Somewhat less than what the steps reach, so that rounding does not ask for one more.
   if (!setup.shearViscosity) return;

@@ -104,13 +104,14 @@ std::vector<double> ReferenceSolver::shearViscosities(double c) const {
     double moment = 0;
     for (const Pair& pair : pairs(i)) {
       const glm::dvec3 q = pair.offset / kernel_.h();
-      if (state.fluid[pair.j] != state.fluid[i]) continue;
-      own += pairWeight(glm::length(q)) * glm::outerProduct(q, q);
-      moment += pairWeight(glm::length(q)) * glm::dot(q, q) * glm::dot(q, q);
+      const ReferenceFluid& other = settings.fluids[state.fluid[pair.j]];
+      if (other.viscosity > 0 || other.yieldStress > 0) moment += pairWeight(glm::length(q)) * glm::dot(q, q) * glm::dot(q, q);
+      if (state.fluid[pair.j] == state.fluid[i]) own += pairWeight(glm::length(q)) * glm::outerProduct(q, q);
     }
     // At a surface, and in a liquid, sums are less than in the lattice. Solids count with the density that they displace.
     const double whole = moment / pairMoment(kernel_, 4) + boundary_[i].value;
-    all[i] *= std::clamp(1 / std::max(whole, 1e-20), 1.0, double{kShearGain});
+    const bool changes = fluid.yieldStress > 0 || fluid.flowIndex != 1;
+    if (changes && whole > 0) all[i] *= std::clamp(1 / whole, 1.0, double{kShearGain});
     const double row = 2 * c * inverseMass(i) * largestRow(own), room = (settings.shearBound - 1) / kShearMargin;
     if (row * all[i] > room) all[i] = room / row;
   }
@@ -181,7 +182,11 @@ void ReferenceSolver::viscosity(double dt) {
   if (std::ranges::find(settings.solids, false, &Solid::slip) != settings.solids.end()) noSlip(unscaled, dt);
   if (!settings.shearViscosity) return;
   // Particles follow: else what stands would sink by what gravity adds to its speed in every substep.
-  for (size_t i = 0; i < size(); ++i) state.position[i] = collide(state.position[i] + dt * (v[i] - free[i]), {});
+  for (size_t i = 0; i < size(); ++i) {
+    const glm::dvec3 along = dt * (v[i] - free[i]);
+    const double longest = double{kShearDisplacement} * settings.spacing, length = glm::length(along);
+    state.position[i] = collide(state.position[i] + (length > longest ? along * (longest / length) : along), {});
+  }
 }
 
 }  // namespace rill::reference

@@ -27,10 +27,21 @@ uint head, fluid;
 float squares = 0.0, moment = 0.0;             // sums of w (q . (v_j - v_i))^2 and w q^4
 vec3 diagonal = vec3(0.0), mixed = vec3(0.0);  // of w q q^T; mixed: yz, zx, xy
 mat3 slopes = mat3(0.0);                       // of w (v_j - v_i) q^T
+float around = 0.0;                            // sum of w q^4 over all fluids that have a viscosity
+
+uint fluidsWithViscosity() {
+  uint all = 0u;
+  for (uint k = 0u; k < (FLUIDS ? 8u : 1u); ++k) all |= rheologyOf(k).x + rheologyOf(k).y > 0.0 ? 1u << k : 0u;
+  return all;
+}
+uint viscous = fluidsWithViscosity();
 
 void visit(uvec4 particle, vec4 companion) {
   vec3 q = (here - uintBitsToFloat(particle.xyz)) * inverseSupport;
-  float square = dot(q, q), t = max(1.0 - sqrt(square), 0.0), weight = fluidOfWork(particle) == fluid ? t * t * t : 0.0;
+  float square = dot(q, q), t = max(1.0 - sqrt(square), 0.0), weight = t * t * t;
+  uint other = fluidOfWork(particle);
+  if ((viscous >> other & 1u) != 0u) around += weight * square * square;
+  if (other != fluid) weight = 0.0;
   vec3 difference = companion.xyz - own.xyz;
   float along = dot(q, difference);
   squares += weight * along * along;
@@ -70,8 +81,9 @@ void main() {
   float rate = clamp(min(fittedRate(), kShearOfPairs * rateOfPairs()), kMinShearRate, kMaxShearRate);
   float viscosity = rheology.x / rate + rheology.y * pow(rate, rheology.z);
   // At a surface, and in a liquid, sums are less than in the lattice. Solids count with the density that they displace.
-  float whole = moment + (SOLIDS ? params.shearMoment * displacedAt(i, head).w : 0.0);
-  viscosity *= clamp(params.shearMoment / max(whole, 1.0e-20), 1.0, kShearGain);
+  float whole = around + (SOLIDS ? params.shearMoment * displacedAt(i, head).w : 0.0);
+  bool changes = rheology.x > 0.0 || rheology.z != 0.0;
+  if (changes && whole > 0.0) viscosity *= clamp(params.shearMoment / max(whole, 1.0e-20), 1.0, kShearGain);
   vec3 rows = diagonal + abs(mixed.zxy) + abs(mixed.yzx);
   float row = 2.0 * inverseMassOf(fluid) * params.viscosityRate * control.step * max(rows.x, max(rows.y, rows.z));
   float room = (params.shearBound - 1.0) / kShearMargin;

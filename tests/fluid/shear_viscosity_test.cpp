@@ -1,4 +1,5 @@
 // Viscosity that depends on shear: against the reference, momenta, and mud that stands.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -148,10 +149,13 @@ TEST_F(ShearViscosityTest, GoesOnFromASnapshotAsWithout) {
 
 // An index of 1 without yield stress is the viscosity that it always was, and nothing of the others exists.
 TEST_F(ShearViscosityTest, NewtonianFluidHasNoPassOfIt) {
-  const Trial t = mud(0, 20, 1);
-  auto run = start(t);
-  run->substeps(2);
-  for (const FluidPassRuns& pass : run->fluid().passRuns()) EXPECT_NE(pass.name, "viscosity by shear");
+  for (const double yieldStress : {0.0, 1.0}) {
+    auto run = start(mud(yieldStress, 20, 1));
+    run->substeps(2);
+    const auto runs = run->fluid().passRuns();
+    for (const char* name : {"viscosity by shear", "viscous displacement"})
+      EXPECT_EQ(std::ranges::count(runs, name, &FluidPassRuns::name), yieldStress > 0 ? 1 : 0) << name;
+  }
   Trial none = mud(0, 0, 0.5);
   none.scene.domain->slip = true;
   const auto setup = makeFluidSetup(none.timedScene(), {.capacity = 255, .extent = {1, 1, 1}});
