@@ -116,15 +116,15 @@ TEST_F(ShearViscosityTest, StandsBelowItsYieldStress) {
     };
     run->advance(0.2);
     const double before = height();
-    for (int n = 0; n < 4; ++n) run->advance(0.1);
+    for (int n = 0; n < 2; ++n) run->advance(0.1);
     return before - height();
   };
-  EXPECT_LT(sinks(4000), 0.002);
-  EXPECT_GT(sinks(200), 0.02);
+  EXPECT_LT(sinks(4000), 0.001);
+  EXPECT_GT(sinks(200), 0.01);
 }
 
 TEST_F(ShearViscosityTest, HandlesDegenerateInput) {
-  for (const double flowIndex : {0.2, 1.0, 2.0})
+  for (const double flowIndex : {0.2, 2.0})
     for (const double yieldStress : {0.0, 1e38}) {
       Trial t = mud(yieldStress, 1e6, flowIndex);
       t.x[40] = t.x[41];
