@@ -5,7 +5,9 @@
 #include <limits>
 #include <new>
 #include <optional>
+#include <span>
 
+#include "core/shares.hpp"
 #include "core/words.hpp"
 #include "fill/blocked_mouths.hpp"
 #include "fill/host_memory.hpp"
@@ -140,18 +142,11 @@ class Placer {
       out_.positions.push_back(relative(at));
       out_.velocities.push_back(velocity);
       if (!scene_.fluids.empty()) out_.fluids.push_back(fluid);
-      if (mixes_) out_.concentrations.push_back(mixed != nullptr ? *mixed : unmixed(fluid));
+      if (mixes_) out_.concentrations.push_back(mixed != nullptr ? *mixed : unmixed(std::span<const size_t>(diffusing_), fluid));
     }
   }
 
  private:
-  Float4 unmixed(uint8_t fluid) const {
-    Float4 shares{};
-    constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
-    for (size_t k = 0; k < diffusing_.size(); ++k) shares.*kComponents[k] = diffusing_[k] == fluid ? 1.0F : 0.0F;
-    return shares;
-  }
-
   /// Position relative to the origin, clamped to closed walls against rounding.
   Float3 relative(const Double3& p) const {
     float r[3];

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/numbers.hpp"
+#include "core/shares.hpp"
 #include "core/words.hpp"
 #include "fill/ply_format.hpp"
 #include "rill/scene.hpp"
@@ -93,16 +94,16 @@ Expected<PlyParticles> PlyFile::read() const {
         out.fluids.push_back(static_cast<uint8_t>(fluid));
       }
       if (!header.hasConcentrations()) continue;
-      const size_t own = header.hasFluid() ? out.fluids.back() : 0;
-      Float4& all = out.concentrations.emplace_back();
-      constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
+      Float4& all =
+          out.concentrations.emplace_back(unmixed(std::span<const size_t>(header.diffusing), header.hasFluid() ? out.fluids.back() : 0));
       for (size_t k = 0; k < header.diffusing.size(); ++k) {
         const int column = header.column[kFirstConcentration + k];
-        const double share = column >= 0 ? row[static_cast<size_t>(column)] : own == header.diffusing[k] ? 1 : 0;
+        if (column < 0) continue;
+        const double share = row[static_cast<size_t>(column)];
         if (!(std::abs(share - 0.5) <= 0.5 + kConcentrationSlack))
           return header.badInput("vertex " + grouped(i) + ", property \"concentration" + std::to_string(header.diffusing[k]) +
                                  "\": found " + shortestNumber(share) + ", expected a number from 0 to 1");
-        all.*kComponents[k] = static_cast<float>(std::clamp(share, 0.0, 1.0));
+        all.*kShares[k] = static_cast<float>(std::clamp(share, 0.0, 1.0));
       }
     }
   }

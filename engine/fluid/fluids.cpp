@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <span>
 
+#include "core/shares.hpp"
 #include "core/words.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/settings.hpp"
@@ -136,8 +138,8 @@ double fastestViscosity(const Scene& scene) {
 }
 
 Float4 unmixed(const FluidParams& params, uint8_t fluid) {
-  const auto share = [&](uint32_t diffusing) { return diffusing == fluid ? 1.0F : 0.0F; };
-  return {share(params.diffusing0), share(params.diffusing1), share(params.diffusing2), share(params.diffusing3)};
+  const std::array diffusing{params.diffusing0, params.diffusing1, params.diffusing2, params.diffusing3};
+  return unmixed(std::span<const uint32_t>(diffusing), fluid);
 }
 
 void addShearViscosity(const Scene& scene, FluidSetup& setup) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/shares.hpp"
 #include "core/words.hpp"
 #include "fluid/settings.hpp"
 #include "offline/advances.hpp"
@@ -139,9 +140,8 @@ class Simulation::Impl {
     }
     if (!readout_.concentrations.empty()) particles.diffusing = diffusingFluids(scene_);
     for (size_t n = 0; n < particles.diffusing.size(); ++n) {
-      constexpr float Float4::*kComponents[] = {&Float4::x, &Float4::y, &Float4::z, &Float4::w};
       std::vector<float>& all = particles.concentrations.emplace_back(count);
-      for (size_t k = 0; k < count; ++k) all[k] = readout_.concentrations[visit.empty() ? k : visit[k]].*kComponents[n];
+      for (size_t k = 0; k < count; ++k) all[k] = readout_.concentrations[visit.empty() ? k : visit[k]].*kShares[n];
     }
     return particles;
   }

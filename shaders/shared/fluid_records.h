@@ -6,6 +6,7 @@
 #include "shared/interop.h"
 #include "shared/measure_records.h"
 #include "shared/neighbor_list.h"
+#include "shared/push_records.h"
 #include "shared/solid_loads.h"
 #include "shared/solid_records.h"
 RILL_RECORDS_BEGIN
@@ -258,45 +259,6 @@ RILL_CONST float kFlowTimes = 4.0f;   // the fastest particle of a flow is about
 RILL_CONST float kColumnUnits = 16.0f;
 RILL_CONST uint kMaxColumnPlace = (1u << 18) - 1u;
 RILL_CONST float kErrorUnit = 1.0f / 16777216.0f;
-
-struct BeginPush {
-  float advance;       // s
-  float drivenSpeed;   // m/s, the fastest driven solid of the advance
-  uint queued;         // 1: only if the last advance has no time left; else that one continues
-  uint pulls;          // as FluidControl has it
-  uint drives;         // 1: a driven solid moves in the advance
-};
-
-struct DensityPush {
-  uint first, last;    // as in ChunkPush
-  uint iteration;      // as in ControlPush
-  uint parity;
-  uint blockStart;
-};
-
-struct ControlPush {
-  uint iteration;      // 0 is the first
-  uint parity;         // of the recorded substep
-  uint blockStart;     // the substep is recorded as the first of its block
-};
-
-struct DisplacePush {
-  uint sumsStiffness;  // 1: of bodies, for the next substep
-};
-
-struct LoadPush {
-  uint ends;           // 1: the last iteration of a substep
-};
-
-struct ContactPush {
-  uint iteration;      // 0 is the first
-};
-
-struct ChunkPush {
-  uint first;          // particle that the list buffer starts with
-  uint last;           // one past its last particle
-  uint iteration;      // 0 is the first
-};
 
 RILL_RECORDS_END
 #endif
