@@ -20,7 +20,8 @@ Tests of a program share a few processes. With CTEST OPTIONs each runs in its ow
 
   --no-install   build and run without installing packages
   --long         also run tests with the label gpu-assisted (the validation layer checks each access to a buffer)
-                 and those with the label long on lavapipe: several minutes of fuzzing, requires clang
+                 and those with the label long on lavapipe: long simulations, the viewer on every scene, and several minutes
+                 of fuzzing, which requires clang
   CTEST OPTION   options for ctest
 
 Examples:
@@ -88,16 +89,18 @@ fi
 export LP_NUM_THREADS=0
 run_tests "lavapipe" "$lavapipe" error "${round[@]}" -LE "^($skipped)$" "$@"
 if [ -z "$swiftshader" ]; then
-  LP_NATIVE_VECTOR_WIDTH=128 run_tests "lavapipe with subgroups of 4" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
+  RILL_TEST_VALIDATION=off LP_NATIVE_VECTOR_WIDTH=128 run_tests "lavapipe with subgroups of 4" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
   unset LP_NUM_THREADS
 fi
-LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
+# Without validation, which takes half of the time: calls are those of the round on lavapipe.
+RILL_TEST_VALIDATION=off LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
 run_tests "hostile drivers" "$lavapipe" $none -L '^hostile-driver$' "$@"
 unset LP_NUM_THREADS
 LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16 and threads" "$lavapipe" $none -L '^threads$' "$@"
 export LP_NUM_THREADS=0
 if [ -n "$swiftshader" ]; then
-  run_tests "SwiftShader" "$swiftshader" $none "${round[@]}" -L "^${prefix}(gpu|subgroups)$" "$@"
+  run_tests "SwiftShader" "$swiftshader" $none "${round[@]}" -L "^${prefix}gpu$" "$@"
+  RILL_TEST_VALIDATION=off run_tests "SwiftShader, subgroups of 4" "$swiftshader" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
 else
   results+=("SwiftShader: skipped, not installed (package chromium-common)")
 fi
@@ -105,7 +108,7 @@ for tool in clang-format clang-tidy; do
   [ -n "$(clang_tool $tool)" ] || results+=("$tool: version $clang_version is not installed, so its test was skipped")
 done
 [ $long = no ] || run_tests "lavapipe with gpu-assisted validation" "$lavapipe" $none -L '^gpu-assisted$' "$@"
-[ $long = no ] || run_tests "lavapipe, long tests" "$lavapipe" $none -L '^long$' "$@"
+[ $long = no ] || run_tests "lavapipe, long tests" "$lavapipe" $none "${round[@]}" -L '^long$' "$@"
 
 phase "Results"
 printf '%s\n' "${results[@]}"

@@ -80,7 +80,7 @@ TEST_F(ShearViscosityTest, ConservesMomenta) {
     };
     run->substeps(1);  // settles, which moves particles without time
     const auto before = momenta();
-    for (int n = 0; n < 4; ++n) run->substeps(25);
+    for (int n = 0; n < 2; ++n) run->substeps(25);
     EXPECT_LT(glm::length(momenta().first - before.first), 1e-4 * glm::length(before.first)) << yieldStress;
     // The solve keeps it, the displacement after it does not: 1.7 and 3.0 % were found at 1 and 100 kPa.
     EXPECT_LT(glm::length(momenta().second - before.second), 0.05 * glm::length(before.second)) << yieldStress;
@@ -130,7 +130,7 @@ TEST_F(ShearViscosityTest, HandlesDegenerateInput) {
       t.x[40] = t.x[41];
       t.v[3] = {1e10, 0, 0};
       auto run = start(t);
-      run->substeps(20);
+      run->substeps(8);
       EXPECT_TRUE(run->snapshot().finite()) << flowIndex << " " << yieldStress;
     }
 }

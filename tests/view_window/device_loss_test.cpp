@@ -9,9 +9,9 @@ namespace {
 
 TEST_F(ViewWindowTest, ContinuesOnANewDevice) {
   for (const char* plan : {"vkQueueSubmit2 9 -4", "vkWaitSemaphores 6 -4", "vkAcquireNextImageKHR 3 -4", "vkQueuePresentKHR 3 -4"}) {
-    const Outcome outcome = viewFailing(plan, {scene, "--frames", "30", "--validate"});
+    const Outcome outcome = viewFailing(plan, {scene, "--frames", "12", "--size", "320x200", "--view", "particles", "--validate"});
     EXPECT_EQ(outcome.code, 0) << plan << ": " << outcome.err;
-    EXPECT_EQ(figure(outcome, "frames"), "30");
+    EXPECT_EQ(figure(outcome, "frames"), "12");
     EXPECT_NE(outcome.err.find("lost"), std::string::npos) << plan << ": " << outcome.err;
     EXPECT_NE(outcome.err.find("The simulation continues on"), std::string::npos) << plan << ": " << outcome.err;
   }
@@ -47,8 +47,9 @@ TEST_F(ViewWindowTest, ChangesTheDeviceBitwise) {
   EXPECT_EQ(list.code, 0) << list.err;
   EXPECT_EQ(std::ranges::count(list.out, '\n'), 3) << list.out;
   // The list below "present", and its second row.
-  folder.write("hands.txt", "2 move 97 201\n2 press left\n3 release left\n8 move 97 246\n9 press left\n10 release left\n20 view final\n");
-  const std::vector<std::string> arguments{scene, "--script", "hands.txt", "--screenshot", "end.png", "--validate"};
+  folder.write("hands.txt",
+               "2 move 97 201\n2 press left\n3 release left\n8 move 97 246\n9 press left\n10 release left\n20 view particles\n");
+  const std::vector<std::string> arguments{scene, "--view", "particles", "--script", "hands.txt", "--screenshot", "end.png", "--validate"};
   const Outcome changed = Child(command(arguments), folder.string(), two).wait(), same = view(arguments);
   ASSERT_EQ(changed.code, 0) << changed.err;
   EXPECT_EQ(changed.err, "");

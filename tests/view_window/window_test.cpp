@@ -206,7 +206,9 @@ TEST_F(ViewWindowTest, CyclesThroughScenes) {
   folder.write("broken.json", "{ \"rill\": ");
   folder.write("hands.txt", "1 key ]\n3 key ]\n5 key ]\n7 key ]\n9 key [\n11 drop b.json\n12 drop missing.json\n14 scene a\n");
   const Child::Environment environment{{"RILL_SCENES", folder.string()}};
-  const Outcome outcome = Child(command({"a", "--script", "hands.txt", "--validate"}), folder.string(), environment).wait();
+  const Outcome outcome =
+      Child(command({"a", "--view", "particles", "--size", "320x200", "--script", "hands.txt", "--validate"}), folder.string(), environment)
+          .wait();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "an invalid scene is reported in the window";
   EXPECT_EQ(figure(outcome, "scene"), "a");

@@ -49,9 +49,11 @@ std::vector<StressCase> bodyCases() {
                            {crate({0.5, 0.3, 0.5}, 0.3, 500), crate({0.5, 0.3, 0.5}, 0.3, 500), crate({0.6, 0.4, 0.5}, 0.2, 2000)}, 5));
   cases.push_back(bodyCase("bodies-in-walls", {crate({0, 0.1, 0.5}, 0.3, 500), crate({1, 0.9, 1}, 0.3, 500)}, 5));
   cases.push_back(bodyCase("body-larger-than-the-domain", {crate({0.5, 1.45, 0.5}, 2.5, 500)}, 40));
+  cases.back().longRun = true;
   for (const double ratio : {1e-3, 1e3})
     cases.push_back(bodyCase("body-of-" + number(ratio) + "-of-water", {crate({0.5, 0.4, 0.5}, 0.3, 1000 * ratio)}, 40));
   cases.push_back(bodyCase("bodies-mass-ratio-1e6", {crate({0.5, 0.2, 0.5}, 0.3, 1), crate({0.5, 0.52, 0.5}, 0.3, 1e6)}, 40));
+  cases.back().longRun = true;
   {  // of almost no volume; what has none is refused when the mesh is made
     auto plate = Mesh::create(boxMesh({-0.2, -0.001, -0.2}, {0.2, 0.001, 0.2}));
     const Solid solid{.shape = MeshShape{.mesh = plate ? *plate : nullptr}, .translation = {0.5, 0.6, 0.5}, .body = Body{.density = 500}};

@@ -101,6 +101,7 @@ std::vector<StressCase> flowCases() {
   const Double3 none = {0, 0, 0}, half = {1, 0.5, 1};
   std::vector<StressCase> cases;
   cases.push_back(flowCase("tap-100-m/s", none, {tap({0.5, 0.9, 0.5}, 0.1, {0, -1, 0}, 100)}));
+  cases.back().longRun = true;
   cases.push_back(
       flowCase("taps-against-each-other", none, {tap({0.3, 0.5, 0.5}, 0.1, {1, 0, 0}, 3), tap({0.7, 0.5, 0.5}, 0.1, {-1, 0, 0}, 3)}));
   cases.push_back(
@@ -135,6 +136,7 @@ std::vector<StressCase> flowCases() {
   }
   {
     StressCase c = flowCase("tank-that-is-overfilled", {1, 1, 1}, {tap({0.5, 0.5, 0.5}, 0.1, {0, -1, 0}, 1)});
+    c.longRun = true;
     c.check = [](const StressOutcome& o) { return expectEmitted(o, true); };
     c.maxSpeed *= 4;
     cases.push_back(c);

@@ -8,7 +8,7 @@
 namespace rill::bench {
 namespace {
 
-constexpr uint64_t kQuickRandom = 6, kRandom = 200;
+constexpr uint64_t kQuickRandom = 4, kRandom = 200;
 
 /// Returns the first failed check of a run; empty if all passed.
 std::string firstFailure(const StressCase& c, const StressOutcome& o, uint64_t particles) {
