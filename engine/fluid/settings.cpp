@@ -248,10 +248,12 @@ Expected<void> checkSteps(const Scene& scene, const Double3& room, const FluidSe
   const FluidParams& p = setup.params;
   const double least = shortestStep(room, p);
   if (setup.longestStep >= least) return {};
-  const bool asked = scene.solver.time_step.value_or(least) < least;
-  const std::string key = asked ? "solver.time_step: steps of "
-                                : "solver: in " + roundedNumber(widest(room)) +
-                                      " m of room this fluid, with its relaxation and regularization, takes steps of at most ";
+  const std::string inRoom = "in " + roundedNumber(widest(room)) + " m of room ";
+  std::string key = "solver: " + inRoom + "this fluid, with its relaxation and regularization, takes steps of at most ";
+  if (setup.longestStep >= p.maxStep && !setup.stepBoundBy.empty())
+    key = setup.stepBoundBy + ": " + inRoom + "it allows steps of at most ";
+  else if (setup.longestStep >= p.maxStep && scene.solver.time_step)
+    key = "solver.time_step: steps of ";
   return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roundedNumber(setup.longestStep) +
                                         " s, in which the rounding of positions alone is " +
                                         roundedNumber(least * p.minSpeedGain / setup.longestStep) + " m/s; expected steps of " +
@@ -341,6 +343,12 @@ void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
                            " s, less than a frame of 1/60 s; time will be dropped");
 }
 
+void boundStep(double longest, const std::string& why, FluidSetup& setup) {
+  if (f(longest) >= setup.params.maxStep) return;
+  setup.params.maxStep = f(longest);
+  setup.stepBoundBy = why;
+}
+
 double listReach(const Scene& scene) { return std::max(scene.fluid.smoothing_ratio, reachOfTension(scene)) + kListSkin; }
 
 uint32_t listCapacity(double reachInSpacings, bool walls) {
@@ -408,7 +416,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.solidCount = static_cast<uint32_t>(setup.solids.size());
   p.bodyCount = static_cast<uint32_t>(setup.bodies.size());
   if (const double gravity = strongestGravity(scene); p.bodyCount > 0 && gravity > 0)
-    p.maxStep = std::min(p.maxStep, f(std::sqrt(kContactFall * d / gravity)));
+    boundStep(std::sqrt(kContactFall * d / gravity), "gravity " + roundedNumber(gravity) + " m/s^2, for bodies", setup);
   p.contactPoints = static_cast<uint32_t>(setup.contactPoints.size());
   p.bodySpeed = f(fastestBody(scene));
   addPressureProbes(scene, kernel, origin, setup);

@@ -77,6 +77,7 @@ struct FluidSetup {
   StabilityLimits limits;
   double head = 0;                        ///< m^2/s^2, of the start's column
   double longestStep = 0, firstStep = 0;  ///< s, of the start
+  std::string stepBoundBy;                ///< what params.maxStep follows from, where not from time_step
   uint32_t fluids = 1;                    ///< number of them
   bool interfaces = false;                ///< some have tension between them
   bool walls = false;                     ///< the domain has a wall
@@ -147,6 +148,9 @@ uint32_t listCapacity(double reachInSpacings, bool walls);
 
 /// Warns if substeps of at most `longest` seconds, which `why` asks for, are too short for frames of 1/60 s.
 void warnOfDropping(const std::string& why, double longest, FluidSetup& setup);
+
+/// No step is longer than `longest` seconds, which `why` asks for.
+void boundStep(double longest, const std::string& why, FluidSetup& setup);
 
 /// How far the neighbor list reaches, in spacings.
 double listReach(const Scene& scene);

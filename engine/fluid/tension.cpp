@@ -56,7 +56,7 @@ void addTension(const Scene& scene, FluidSetup& setup) {
   if (scene.solver.time_step && *scene.solver.time_step > step)
     setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " + shownTension(scene) +
                              " allows at this spacing: steps are at most " + roundedNumber(step) + " s");
-  p.maxStep = std::min(p.maxStep, f(step));
+  boundStep(step, shownTension(scene), setup);
   warnOfDropping(shownTension(scene), step, setup);
 }
 

@@ -181,5 +181,23 @@ TEST_F(BoundsTest, RejectsStepsTooShortForFloats) {
   EXPECT_TRUE(wide.error().message.starts_with("solver: in 1e+04 m of room this fluid")) << wide.error().message;
 }
 
+TEST_F(BoundsTest, NamesTensionThatNeedsTooShortSteps) {
+  const StartFigures drops{.capacity = 8000, .extent = {1e5, 0.2, 0.2}};
+  Scene scene;
+  scene.gravity = {};
+  scene.fluid.spacing = 0.01;
+  EXPECT_TRUE(makeFluidSetup(scene, drops)) << "nothing asks for short steps";
+  scene.fluid.surface_tension = 10;
+  const auto one = makeFluidSetup(scene, drops);
+  ASSERT_FALSE(one);
+  EXPECT_EQ(one.error().kind, ErrorKind::BadInput);
+  EXPECT_TRUE(one.error().message.starts_with("fluid.surface_tension 10 N/m: in 2e+05 m of room it allows steps of at most 0.002 s, "))
+      << one.error().message;
+  scene.solver.time_step = 1e-6;
+  const auto shorter = makeFluidSetup(scene, drops);
+  ASSERT_FALSE(shorter);
+  EXPECT_TRUE(shorter.error().message.starts_with("solver.time_step: steps of 1e-06 s, ")) << shorter.error().message;
+}
+
 }  // namespace bounds_test
 }  // namespace rill::test
