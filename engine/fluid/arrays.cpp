@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "fluid/fluids.hpp"
+#include "fluid/steps.hpp"
+#include "fluid/viscosity.hpp"
 #include "shape/contact_points.hpp"
 #include "shared/region_records.h"
 #include "shared/surface_tension.h"

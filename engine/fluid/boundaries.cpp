@@ -10,6 +10,7 @@
 #include "core/vector_math.hpp"
 #include "core/words.hpp"
 #include "fluid/numbers.hpp"
+#include "fluid/viscosity.hpp"
 #include "shape/contact_points.hpp"
 #include "shape/mass.hpp"
 #include "shape/records.hpp"

@@ -12,78 +12,30 @@
 #include "fluid/numbers.hpp"
 #include "fluid/sleep.hpp"
 #include "fluid/stability_limits.hpp"
+#include "fluid/steps.hpp"
 #include "fluid/tension.hpp"
+#include "fluid/viscosity.hpp"
 #include "shape/pose.hpp"
 #include "shared/diffusion_steps.h"
-#include "shared/shear_viscosity.h"
 #include "shared/surface_tension.h"
-#include "shared/viscosity_steps.h"
 #include "sph/artificial_pressure.hpp"
 #include "sph/diffusion.hpp"
 #include "sph/half_space.hpp"
 #include "sph/kernel.hpp"
 #include "sph/liquid_scale.hpp"
-#include "sph/shear_viscosity.hpp"
-#include "sph/viscosity.hpp"
 
 namespace rill {
 namespace {
 
-// Of a fluid at rest, over density x spacing x sqrt(g spacing).
-constexpr double kArtificialViscosity = 1;
 // The time in which the lattice of a fill at h = 2.3 d becomes a liquid, over sqrt(spacing / g). See docs/notes/rest-state.md.
 constexpr double kMeltingTime = 20;
-// The gain where density is too low, over that where it is too high: what builds up slower than it goes pumps less energy.
-constexpr double kWarmRelease = 1.5;
-// Spacings that the fastest particle may move before the list is rebuilt.
-constexpr double kTravel = 1.2;
-constexpr double kMinCfl = 0.01;  // spacings a substep
-// Where walls may be one spacing thick: a substep moves a center by twice that at most, and a solid by it, together not past the wall's
-// middle.
-constexpr double kThinWallCfl = 0.3;
 constexpr double kContactFall = 0.005;  // spacings that bodies fall in a step, at most: contacts give way by a multiple of it
 constexpr double kSeparationRate = 10;  // 1/s: spacings a second by which bodies that overlap come apart, without gravity
-constexpr uint32_t kLongestBlock = 6;   // substeps
 // Spacings: beyond it, positions have lost their meaning: float holds 24 bits.
 constexpr double kFarSpacings = 1.0e6;
 // Entries for what begins and fills the segments of a particle in a corner, but for those that its neighbors leave.
 constexpr uint32_t kSegmentRoom = 16;
 constexpr SideMask kEverySide = 0b111111;
-// For the device, where a limit is infinite.
-constexpr double kLargest = 1e30;
-
-/// As many as a list lives for where the step is the longest that the CFL condition allows, and one more: it is shorter as a rule. Where
-/// something else bounds the step, a list may live for long.
-uint32_t substepsPerBlock(const SolverSettings& solver) {
-  if (solver.time_step || solver.cfl > kTravel) return kLongestBlock;
-  const double lives = std::ceil(kTravel / std::max(solver.cfl, kMinCfl)) + 1;
-  return lives < kLongestBlock ? static_cast<uint32_t>(lives) : kLongestBlock;
-}
-
-// XSPH coefficient a second that a dynamic viscosity (Pa s) asks for.
-double xsphRate(double viscosity, const Scene& scene, const SmoothingKernel& kernel) {
-  return 2 * viscosity / (densestFluid(scene) * kernel.secondMoment());
-}
-
-void setViscosity(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  constexpr double kMaxViscosityRate = 1e20;  // 1/s; in a step far more than the solve takes, and its squares are floats
-  setup.params.viscosityRate = f(std::min(viscosityRate(largestViscosity(scene), densestFluid(scene), kernel), kMaxViscosityRate));
-}
-
-// As many steps as the longest substep asks for where the fluid is somewhat denser than its rest lattice.
-void setViscositySteps(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  constexpr uint32_t kMaxSteps = 64;
-  constexpr double kCrowded = 1.5;
-  if (largestViscosity(scene) <= 0) return;
-  const double rate = setup.params.viscosityRate * fastestViscosity(scene);
-  const double room = setup.shearViscosity ? kCrowded * double{kShearMargin} : kCrowded;
-  const double bound = 1 + room * (latticeBound(rate * setup.longestStep, kernel) - 1);
-  setup.params.viscositySteps = shared::viscositySteps(bound, kMaxSteps).count;
-  // Somewhat less than what the steps reach, so that rounding does not ask for one more.
-  if (!setup.shearViscosity) return;
-  setup.params.shearBound = f(0.99 * reachedBound(setup.params.viscositySteps));
-  setup.params.shearMoment = f(pairMoment(kernel, 4));
-}
 
 // As many stages as the longest block asks for where the fluid is somewhat denser than its rest lattice.
 void setDiffusion(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
@@ -102,162 +54,6 @@ void setDiffusion(const Scene& scene, const SmoothingKernel& kernel, FluidSetup&
   setup.params.maxDiffusionRate = f(std::min(diffusionRate(fastest, kernel), kMaxDiffusionRate));
   const double length = kCrowded * setup.params.maxDiffusionRate * diffusionRow(kernel) * setup.substepsPerBlock * setup.longestStep;
   setup.params.diffusionStages = shared::diffusionStages(length, kMaxStages);
-}
-
-void setNoiseDamping(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  setup.artificialViscosity = artificialViscosity(scene);
-  setup.params.noiseDampingRate = f(xsphRate(setup.artificialViscosity, scene, kernel));
-  if (setup.artificialViscosity > 0) return;
-  setup.whyNoNoiseDamping = strongestGravity(scene) == 0                         ? "no gravity"
-                            : scene.solver.artificial_viscosity.value_or(1) == 0 ? "artificial viscosity is 0"
-                                                                                 : "the viscosity is larger";
-}
-
-// Nothing of it exists where it has no effect.
-void setNoSlip(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  const bool walls = hasWalls(scene) && !scene.domain->slip;
-  setup.noSlipWalls = walls && largestViscosity(scene) > 0;
-  for (const Solid& solid : scene.solids) {
-    setup.noSlipSolids |= sticks(scene, solid);
-    setup.noSlipBodies |= sticks(scene, solid) && solid.body;
-  }
-  if (setup.noSlipSolids) addNoSlipTable(kernel, setup);
-  if (largestViscosity(scene) > 0) return;
-  const auto found = std::ranges::find(scene.solids, false, &Solid::slip);
-  if (!walls && found == scene.solids.end()) return;
-  const std::string key = walls ? "domain" : elementPath("solids", static_cast<size_t>(found - scene.solids.begin()));
-  const std::string what = scene.fluids.empty() ? "fluid.viscosity is 0" : "the viscosity of every fluid is 0";
-  setup.warnings.push_back(key + ".slip: false has no effect: " + what + ", expected more (Pa s)");
-}
-
-// The end of a warning about a setting beyond its bound.
-std::string usedInstead(double found, double used) { return roundedNumber(found) + "; " + roundedNumber(used) + " is used"; }
-
-double widest(const Double3& room) { return std::max({room[0], room[1], room[2]}); }
-
-void setRegularization(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
-  const auto [wanted, taken] = boundedRegularization(scene);
-  setup.params.regularization = f(taken * kernel.restGradientSum());
-  if (taken < wanted)
-    setup.warnings.push_back("solver.regularization: expected at most " + roundedNumber(taken) +
-                             ", beyond which this kernel gains energy, found " + usedInstead(wanted, taken));
-}
-
-void setRelaxation(FluidSetup& setup) {
-  const StabilityLimits& limits = setup.limits;
-  setup.params.relaxationInMotion = limits.relaxationInMotion;
-  setup.params.relaxationAtRest = limits.relaxationAtRest;
-  if (limits.relaxationWanted > limits.relaxationLimit)
-    setup.warnings.push_back("solver.relaxation: expected at most " + roundedNumber(limits.relaxationLimit) +
-                             ", beyond which this kernel does not converge, found " +
-                             usedInstead(limits.relaxationWanted, limits.relaxationLimit));
-}
-
-void setCfl(const Scene& scene, FluidSetup& setup) {
-  const bool thin = std::ranges::any_of(scene.solids, [](const Solid& s) { return std::holds_alternative<MeshShape>(s.shape); });
-  const double wanted = scene.solver.cfl, taken = std::clamp(wanted, kMinCfl, thin ? kThinWallCfl : kLargest);
-  setup.params.cfl = f(taken);
-  setup.params.solidSpeedInCfl = thin ? 1 : 0;
-  if (taken > wanted)
-    setup.warnings.push_back("solver.cfl: expected at least " + roundedNumber(taken) + ", found " + usedInstead(wanted, taken));
-  if (taken < wanted)
-    setup.warnings.push_back("solver.cfl: expected at most " + roundedNumber(taken) + " beside meshes, whose walls may be thin, found " +
-                             usedInstead(wanted, taken));
-}
-
-void setGains(const Scene& scene, FluidSetup& setup) {
-  const auto [wanted, taken] = boundedWarmGain(scene);
-  if (scene.solver.warm_start && taken < wanted)
-    setup.warnings.push_back("solver.warm_start: expected at most " + roundedNumber(taken) +
-                             ", beyond which this kernel and regularization gain energy, found " + usedInstead(wanted, taken));
-  setup.warm = startsWarm(scene);
-  setup.params.warmGainInMotion = setup.limits.warmGainInMotion;
-  setup.params.maxWarmGainAtRest = f(setup.limits.maxWarmGainAtRest);
-  setup.params.layerWarmGainAtRest = f(std::min(setup.limits.layerWarmGainAtRest, kLargest));
-}
-
-// Of all that there is room for, m.
-double cubeEdge(const Scene& scene, const StartFigures& start) {
-  return std::cbrt(static_cast<double>(start.capacity)) * scene.fluid.spacing;
-}
-
-// The head of the start, and what the device needs to follow it: see docs/notes/column-height.md. What nothing can hold may be drops far
-// apart: no column is higher than one drop of all of it.
-void setColumn(const Scene& scene, const StartFigures& start, FluidSetup& setup) {
-  FluidParams& p = setup.params;
-  float* gravity[3] = {&p.columnGravityX, &p.columnGravityY, &p.columnGravityZ};
-  float* limit[3] = {&p.columnLimitX, &p.columnLimitY, &p.columnLimitZ};
-  const double drop = 1.5 * cubeEdge(scene, start);
-  Double3 height;
-  for (int a = 0; a < 3; ++a) {
-    height[a] = setup.held ? start.extent[a] : std::min(start.extent[a], drop);
-    *gravity[a] = setup.held ? f(strongestGravity(scene, a)) : 0.0f;
-    const double room = scene.domain ? scene.domain->max[a] - scene.domain->min[a] : std::max(start.extent[a], drop);
-    *limit[a] = f(std::max(room, scene.fluid.spacing));
-  }
-  setup.head = columnHead(scene, height);
-  p.layerHead = f(setup.limits.layerHead);
-  p.motionShare = f(setup.limits.motionShare);
-  p.stableStep = f(setup.limits.stableStep);
-  p.toleratedStep = f(std::min(setup.limits.toleratedStep, kLargest));
-}
-
-void setSpeeds(const Scene& scene, const StartFigures& start, FluidParams& p) {
-  // Without a domain nothing else bounds what the fluid becomes when more is added.
-  Double3 extent;
-  for (int a = 0; a < 3; ++a) extent[a] = scene.domain ? start.extent[a] : std::max(start.extent[a], cubeEdge(scene, start));
-  const SpeedLimits limits = speedLimits(scene, extent, std::max(start.fastest, fastestEmitter(scene)),
-                                         std::max({double{p.solidSpeed}, fastestDriven(scene), fastestBody(scene)}));
-  p.warmLimit = f(limits.warm);
-  p.minSpeedGain = f(limits.minGain);
-  p.maxSpeedGain = f(limits.maxGain);
-  p.speedLimit = f(limits.speed);
-}
-
-// No step is longer than the longest stable one, whatever is asked for.
-void setLongestStep(const Scene& scene, FluidSetup& setup) {
-  const StabilityLimits& limits = setup.limits;
-  const uint32_t iterations = setup.params.iterations;
-  const double stable = limits.longestStep(setup.head);
-  if (scene.solver.time_step && *scene.solver.time_step > stable)
-    setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " +
-                             std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations") +
-                             " can hold this fluid's weight in: steps are at most " + roundedNumber(stable) + " s");
-  setup.longestStep = std::min<double>(setup.params.maxStep, stable);
-  if (limits.softness > 1) warnOfDropping("solver.regularization " + roundedNumber(boundedRegularization(scene).taken), stable, setup);
-  setup.firstStep = std::min(setup.longestStep, limits.firstStep(setup.head));
-}
-
-// Where nothing holds the fluid up there is no initial pressure.
-void setInitialPressure(const Scene& scene, const SmoothingKernel& kernel, const Double3& room, FluidSetup& setup) {
-  if (!setup.held) return;
-  const InitialPressure pressure = initialPressure(scene, kernel, setup.limits, setup.head, widest(room));
-  setup.params.initialPressureIterations = pressure.iterations;
-  setup.params.initialPressureMomentum = f(pressure.momentum);
-  setup.params.initialPressureStep = f(pressure.step);
-  setup.params.initialPressureErrorLimit = f(pressure.errorLimit);
-}
-
-// In a shorter step the rounding of positions, which are floats, is more speed than a correction may always add.
-double shortestStep(const Double3& room, const FluidParams& p) {
-  constexpr double kHalfUlp = 0x1p-24;
-  return p.minSpeedGain > 0 ? kHalfUlp * widest(room) / p.minSpeedGain : 0;
-}
-
-Expected<void> checkSteps(const Scene& scene, const Double3& room, const FluidSetup& setup) {
-  const FluidParams& p = setup.params;
-  const double least = shortestStep(room, p);
-  if (setup.longestStep >= least) return {};
-  const std::string inRoom = "in " + roundedNumber(widest(room)) + " m of room ";
-  std::string key = "solver: " + inRoom + "this fluid, with its relaxation and regularization, takes steps of at most ";
-  if (setup.longestStep >= p.maxStep && !setup.stepBoundBy.empty())
-    key = setup.stepBoundBy + ": " + inRoom + "it allows steps of at most ";
-  else if (setup.longestStep >= p.maxStep && scene.solver.time_step)
-    key = "solver.time_step: steps of ";
-  return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + roundedNumber(setup.longestStep) +
-                                        " s, in which the rounding of positions alone is " +
-                                        roundedNumber(least * p.minSpeedGain / setup.longestStep) + " m/s; expected steps of " +
-                                        roundedNumber(least) + " s or more"};
 }
 
 void setArtificialPressure(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
@@ -306,20 +102,11 @@ void addPressureProbes(const Scene& scene, const SmoothingKernel& kernel, const 
 
 }  // namespace
 
-double artificialViscosity(const Scene& scene) {
-  const double d = scene.fluid.spacing;
-  const double wanted =
-      scene.solver.artificial_viscosity.value_or(kArtificialViscosity) * densestFluid(scene) * d * std::sqrt(strongestGravity(scene) * d);
-  return std::max(0.0, wanted - smallestKinematicViscosity(scene) * densestFluid(scene));
-}
-
 double meltingTime(const Scene& scene) {
   const double gravity = strongestGravity(scene);
   const bool held = hasWalls(scene) || holdsFluid(scene);  // in free fall there is no pressure
   return held && gravity > 0 ? kMeltingTime * std::sqrt(scene.fluid.spacing / gravity) : 0;
 }
-
-bool sticks(const Scene& scene, const Solid& solid) { return !solid.slip && largestViscosity(scene) > 0; }
 
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
 
@@ -331,22 +118,6 @@ bool removes(const Scene& scene) { return hasEmitters(scene) || !scene.drains.em
 
 size_t pressureProbeCount(const Scene& scene) {
   return static_cast<size_t>(std::ranges::count_if(scene.probes, [](const Probe& probe) { return probe.pressure.has_value(); }));
-}
-
-bool startsWarm(const Scene& scene) { return boundedWarmGain(scene).wanted > 0; }
-
-void warnOfDropping(const std::string& why, double longest, FluidSetup& setup) {
-  const double all = longest * setup.params.maxSubsteps;
-  if (all >= 1.0 / 60) return;
-  setup.warnings.push_back(why + " needs substeps of at most " + roundedNumber(longest) +
-                           " s: " + std::to_string(setup.params.maxSubsteps) + " of them are " + roundedNumber(all) +
-                           " s, less than a frame of 1/60 s; time will be dropped");
-}
-
-void boundStep(double longest, const std::string& why, FluidSetup& setup) {
-  if (f(longest) >= setup.params.maxStep) return;
-  setup.params.maxStep = f(longest);
-  setup.stepBoundBy = why;
 }
 
 double listReach(const Scene& scene) { return std::max(scene.fluid.smoothing_ratio, reachOfTension(scene)) + kListSkin; }
@@ -384,7 +155,6 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setup.limits = stabilityLimits(scene, kernel);
   setRegularization(scene, kernel, setup);
   setRelaxation(setup);
-  p.warmRelease = f(kWarmRelease);
   p.reach = f(std::max(h, reachOfTension(scene) * d) + kListSkin * d);
   p.travelLimit = f(kTravel * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);

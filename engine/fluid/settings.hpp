@@ -106,9 +106,6 @@ struct StartFigures {
 /// BadInput where the scene cannot run.
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start);
 
-/// Whether viscous fluid sticks to a solid.
-bool sticks(const Scene& scene, const Solid& solid);
-
 /// Whether a side of the domain is closed.
 bool hasWalls(const Scene& scene);
 
@@ -139,18 +136,9 @@ inline bool keepsMultipliers(const FluidSetup& setup) { return setup.params.iter
 /// The time in which weight makes a liquid of a fill's lattice, s; 0 without gravity, or without walls and solids that hold the fluid.
 double meltingTime(const Scene& scene);
 
-/// The dynamic viscosity that damps the shortest waves, particle noise, in a fluid at rest, Pa s; 0 without noise damping.
-double artificialViscosity(const Scene& scene);
-
 /// Entries that the list holds a particle, a multiple of 4: of the neighbors that a lattice compressed by a fifth puts within the reach,
 /// and where there are walls of what segments take.
 uint32_t listCapacity(double reachInSpacings, bool walls);
-
-/// Warns if substeps of at most `longest` seconds, which `why` asks for, are too short for frames of 1/60 s.
-void warnOfDropping(const std::string& why, double longest, FluidSetup& setup);
-
-/// No step is longer than `longest` seconds, which `why` asks for.
-void boundStep(double longest, const std::string& why, FluidSetup& setup);
 
 /// How far the neighbor list reaches, in spacings.
 double listReach(const Scene& scene);

@@ -9,6 +9,7 @@
 #include "core/words.hpp"
 #include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
+#include "fluid/steps.hpp"
 #include "sph/surface_tension.hpp"
 
 namespace rill {
