@@ -65,6 +65,7 @@ std::vector<Experiment> jumpExperiments();        ///< depths of a hydraulic jum
 std::vector<Experiment> mixtureExperiments();     ///< several fluids: layers, Rayleigh-Taylor, lock exchange, diffusion
 std::vector<Experiment> oilDropExperiments();     ///< tension between liquids
 std::vector<Experiment> bubbleExperiments();      ///< bubbles that rise in a thick liquid
+std::vector<Experiment> crownExperiments();       ///< fingers of a crown
 std::vector<Experiment> dropExperiments();        ///< surface tension: drops, rise between plates, threads
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
