@@ -133,10 +133,11 @@ Expected<void> FluidImpl::makeBuffers(Device& device, bool storageReads) {
   const uint32_t chunk = p.listCapacity == 0 ? capacity : static_cast<uint32_t>(chunkBlocks * kListBlock);
   setup.params.chunkParticles = chunk;
   for (uint32_t first = 0; first < capacity; first += chunk) chunks_.push_back({first, std::min(capacity, first + chunk)});
+  static_assert(kMaxListChunks <= kMaxSurfaceChunks);
   assert(chunks_.size() <= kMaxListChunks);  // checkRoom()
   const uint64_t maxTexels =
-      std::max({p.tensionRate > 0 ? kTensionSamples / 4 * n : more, more, uint64_t{chunk} * p.listCapacity / 4,
-                paddedWords(keyRange(setup) + 1), uint64_t{setup.tables.size() / 4}, uint64_t{setup.meshWords.size()}});
+      std::max({p.tensionRate > 0 ? n + kMaxSurfaceChunks : more, uint64_t{chunk} * p.listCapacity / 4, paddedWords(keyRange(setup) + 1),
+                uint64_t{setup.tables.size() / 4}, uint64_t{setup.meshWords.size()}});
   texel_ = !storageReads && usesTexelReads(device, maxTexels);
 
   auto sort = KeySort::create(

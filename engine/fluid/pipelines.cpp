@@ -49,6 +49,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"REMOVES", setup.removes},
           {"OUTFLOW", setup.params.outflowLevel < kNoWall},
           {"FORCES", hasForces(setup)},
+          {"TENSION", p.tensionRate > 0},
           {"REGIONS", p.regionsX != 0},
           {"FLUIDS", setup.fluids > 1},
           {"INTERFACES", setup.interfaces},

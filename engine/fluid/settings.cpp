@@ -35,6 +35,9 @@ constexpr double kSeparationRate = 10;  // 1/s: spacings a second by which bodie
 constexpr double kFarSpacings = 1.0e6;
 // Entries for what begins and fills the segments of a particle in a corner, but for those that its neighbors leave.
 constexpr uint32_t kSegmentRoom = 16;
+
+// Of near neighbors, in spacings: lists of slow drops live long (docs/notes/surface-tension.md).
+constexpr double kTensionSkin = 0.7;
 constexpr SideMask kEverySide = 0b111111;
 
 // As many stages as the longest block asks for where the fluid is somewhat denser than its rest lattice.
@@ -156,6 +159,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setRegularization(scene, kernel, setup);
   setRelaxation(setup);
   p.reach = f(std::max(h, reachOfTension(scene) * d) + kListSkin * d);
+  p.nearReach = reachOfTension(scene) > 0 ? std::min(p.reach, f(h + kTensionSkin * d)) : p.reach;
   p.travelLimit = f(kTravel * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), hasWalls(scene)) : 0u;

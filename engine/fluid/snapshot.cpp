@@ -202,13 +202,20 @@ Expected<void> checkRegions(const FluidSnapshot& s, const SnapshotShape& shape) 
   return {};
 }
 
-/// The first neighbor names an image if any does; images come in order.
+/// With surface tension a list begins with far neighbors.
+bool isFar(uint32_t neighbor) { return neighbor >= kImageOfNeighbors + kDeepSegment; }
+bool farComeFirst(std::span<const uint32_t> neighbors, bool tension) {
+  if (neighbors.empty()) return true;
+  return isFar(neighbors[0]) == tension && std::ranges::none_of(neighbors.subspan(1), isFar);
+}
+
+/// The first neighbor names an image, or is a far one, if any does; images come in order.
 bool imagesInOrder(std::span<const uint32_t> neighbors) {
   uint32_t last = 0;
   for (size_t k = 0; k < neighbors.size(); ++k) {
     if (neighbors[k] < kImageOfNeighbors) continue;
     if (k > 0 && (last == 0 || neighbors[k] <= last)) return false;
-    last = neighbors[k];
+    last = isFar(neighbors[k]) ? kImageOfNeighbors - 1 : neighbors[k];
   }
   return true;
 }
@@ -227,8 +234,11 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
   }
   if (auto right = checkLength("neighbors", s.neighbors.size(), entries); !right) return right;
   if (lists && overflow != sums.overflow) return wrong("its number of overflowed neighbor lists is not that of its neighbor counts");
-  const uint32_t images = shape.segments ? kSegmentImages : 0;
-  const auto outOfRange = [&](uint32_t j) { return j < kImageOfNeighbors ? j >= s.id.size() : j - kImageOfNeighbors >= images; };
+  const uint32_t images = shape.segments ? kSegmentImages : uint32_t{shape.tension};
+  const auto isImage = [&](uint32_t j) {
+    return j - kImageOfNeighbors < images || (shape.tension && isFar(j) && j <= kImageOfNeighbors + kFarSegment);
+  };
+  const auto outOfRange = [&](uint32_t j) { return j < kImageOfNeighbors ? j >= s.id.size() : !isImage(j); };
   if (std::ranges::any_of(s.neighbors, outOfRange)) return wrong("a neighbor index is out of range");
   uint64_t from = 0;
   for (uint32_t i = 0; i < s.neighborCount.size(); ++i) {
@@ -236,6 +246,7 @@ Expected<void> checkNeighbors(const FluidSnapshot& s, const FluidSums& sums, con
     if (n > shape.listCapacity) continue;
     const auto neighbors = std::span(s.neighbors).subspan(from, n);
     if (!imagesInOrder(neighbors)) return wrong("the images of a particle's neighbors are not in order");
+    if (!farComeFirst(neighbors, shape.tension)) return wrong("far neighbors of a particle do not come first, as surface tension asks for");
     if (listEntries(i, neighbors) > shape.listCapacity)
       return wrong("the neighbors of a particle take more entries than its list has; expected them in increasing order");
     from += n;
@@ -276,6 +287,7 @@ SnapshotShape snapshotShape(const FluidSetup& setup) {
           .cells = setup.grid.cells(),
           .initialPressureIterations = setup.params.initialPressureIterations,
           .segments = setup.walls && !setup.thin,
+          .tension = setup.params.tensionRate > 0,
           .movingSolids = setup.movingSolids};
 }
 

@@ -20,7 +20,7 @@ struct SnapshotShape {
   uint64_t regions = 0;                    ///< that fall asleep on their own
   uint64_t cells = 0;                      ///< of the grid
   uint32_t initialPressureIterations = 0;  ///< FluidParams::initialPressureIterations
-  bool segments = false, movingSolids = false;
+  bool segments = false, tension = false, movingSolids = false;
 };
 SnapshotShape snapshotShape(const FluidSetup& setup);
 /// Entries of FluidSnapshot::flows.

@@ -64,6 +64,7 @@ void FluidImpl::stageScene() {
   staging_->clear(slotOf(FluidArray::NearTangential));
   staging_->clear(slotOf(FluidArray::SolidSums));
   staging_->clear(slotOf(FluidArray::Commands));
+  if (setup.params.tensionRate > 0) staging_->clear(slotOf(FluidArray::SurfaceParticle));
   staging_->clear(slotOf(FluidArray::DensityCommands));
 }
 

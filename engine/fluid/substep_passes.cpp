@@ -101,8 +101,9 @@ void FluidImpl::declareTension(Graph& graph) {
   using enum FluidArray;
   declare(graph, FluidPass::SurfacePlanes, Start::Correct);
   alias(Particle, Position);
-  declare(graph, FluidPass::SurfaceSamples, Start::Correct, ChunkPush{});
+  declare(graph, FluidPass::SurfaceParticles, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::SurfaceTension, Start::Correct, ChunkPush{});
+  declare(graph, FluidPass::SurfaceForces, Start::Correct);
   alias(Particle, Work);
 }
 

@@ -38,7 +38,7 @@ void warnOfRaisedTensions(const Scene& scene, FluidSetup& setup) {
 }  // namespace
 
 void addTension(const Scene& scene, FluidSetup& setup) {
-  constexpr double kDeepShare = 0.95;  // of the entries of a particle in the middle of others: the third layer has 0.93
+  constexpr double kDeepShare = 0.95;  // of the neighbors of a particle in the middle of others: the third layer has 0.93
   constexpr double kMaxRate = 1e20;    // 1/s^2 and m/s^2: no step is as short as these would ask for
   FluidParams& p = setup.params;
   const double tension = largestTension(scene), d = scene.fluid.spacing;
@@ -52,7 +52,7 @@ void addTension(const Scene& scene, FluidSetup& setup) {
   p.tensionRate = f(std::min(rates.rate, kMaxRate));
   p.tensionWall = f(std::min(rates.wall, kMaxRate));
   p.wettingCosine = f(std::cos(scene.fluid.contact_angle * std::numbers::pi / 180));
-  p.deepNeighbors = static_cast<uint32_t>(kDeepShare * 4 / 3 * std::numbers::pi * std::pow(listReach(scene), 3));
+  p.deepNeighbors = f(std::floor(kDeepShare * 4 / 3 * std::numbers::pi * std::pow(listReach(scene), 3)));
   const double step = capillaryStep(largestKinematicTension(scene), 1, d);
   if (scene.solver.time_step && *scene.solver.time_step > step)
     setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " + shownTension(scene) +

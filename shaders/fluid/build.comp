@@ -1,5 +1,5 @@
 #version 460
-// The neighbor list of the sorted particles (those nearer than support plus skin), as described in
+// The neighbor list of the sorted particles (those nearer than a support plus skin), as described in
 // shared/neighbor_list.h, and the sorted arrays copied back in place. A particle with more entries than
 // the list holds walks the grid in every pass, and is counted. Gathers from the sorted predictions.
 #extension GL_GOOGLE_include_directive : require
@@ -109,7 +109,7 @@ void beginSegment() {
 }
 
 void endSegment(uint image) {
-  if (last == kNone) holds = 0u;  // drop a segment without neighbors
+  if (last == kNone && image < kDeepSegment) holds = 0u;  // drop a segment without neighbors
   padAndStore();
   uint groups = (stored - segmentBegin) / 4u;
   uint entry = kLongStep | image << kSegmentGroupBits | groups;
@@ -147,36 +147,67 @@ void listNeighbors(uint base, uint mask) {
 }
 
 bool listable = true;  // a list can hold the neighbors
-uint image = 0u;  // behind walls, whose neighbors come next; 0: the particle
+uint image = 0u;  // behind walls, whose neighbors come next; 0: the particle; kFarSegment: its far neighbors
 vec3 place, here;
 uint coincident = kNone;
-float reachSquared = params.reach * params.reach;
+float nearSquared = params.nearReach * params.nearReach;
+float reachSquared = nearSquared;
+uint around = 0u;  // neighbors within params.reach that cover samples of the surface whole
+uint ownFluid;
+bool hasInterface = false;  // with its fluid
 float coincidentSquared = 1.0e-6 * params.support * params.support;
 
 void takeTurn(bool mine) { here = mine ? place : vec3(-kInactivePosition); }  // from there nothing is near
 void candidates(uint first, uint end) {
-  uint mask = 0u, coincidents = 0u;
+  uint mask = 0u, coincidents = 0u, inner = 0u, own = 0u;
   uint base = first;
   LOOP_WHILE (ANY_LANE(base < end)) {
-    vec3 candidate = sortedPredictionAt(min(base + clusterLane, max(end, 1u) - 1u)).xyz;
-    uint near = 0u, same = 0u;
+    vec4 candidate = sortedPredictionAt(min(base + clusterLane, max(end, 1u) - 1u));
+    uint near = 0u, same = 0u, closer = 0u, alike = 0u;
     for (uint lane = 0u; lane < CLUSTER; ++lane) {
-      vec3 r = here - SPREAD(candidate, lane);
+      vec3 r = here - SPREAD(candidate.xyz, lane);
       float squared = dot(r, r);
       near |= uint(squared < reachSquared) << lane;
       same |= uint(squared < coincidentSquared) << lane;
+      if (TENSION) closer |= uint(squared < nearSquared) << lane;
+      if (INTERFACES) alike |= uint(fluidOfPrediction(SPREAD(candidate.w, lane)) == ownFluid) << lane;
     }
     mask |= near << (base - first);
     coincidents |= same << (base - first);
+    inner |= closer << (base - first);
+    own |= alike << (base - first);
     base += CLUSTER;
   } LOOP_END(ANY_LANE(base < end));
   if (end - first < kWindow) mask &= (1u << (end - first)) - 1u;
-  if (image == 0u && self - first < kWindow) mask &= ~(1u << (self - first));
+  bool far = TENSION && image == kFarSegment;
+  if ((image == 0u || far) && self - first < kWindow) mask &= ~(1u << (self - first));
+  if (far) {
+    around += bitCount(INTERFACES && hasInterface ? mask & own : mask);
+    mask &= ~inner;
+  }
   coincidents &= image == 0u ? mask : 0u;
   if (coincidents != 0u) coincident = first + findMSB(coincidents);
   if (LIST_CAPACITY != 0u) listNeighbors(first, listable ? mask : 0u);
 }
 #include "fluid/walk.glsl"
+
+// Share of a ball around a place that is on the fluid's side of a wall; `distance`: of the place, over the ball's radius.
+float shareBefore(float distance) {
+  float t = clamp(distance, 0.0, 1.0);
+  return 0.5 + (0.75 - 0.25 * t * t) * t;
+}
+
+// Whether so many are around a particle that no surface can be near but walls: see docs/notes/surface-tension.md.
+bool isDeep(vec3 x) {
+  vec3 low = x - wallsLow(), high = wallsHigh() - x;
+  if (aboveOutflow(x)) {
+    if (params.outflowSide % 2u == 0u) low[params.outflowSide / 2u] = kNoWall;
+    else high[params.outflowSide / 2u] = kNoWall;
+  }
+  float share = 1.0;
+  for (int a = 0; a < 3; ++a) share *= shareBefore(low[a] / params.reach) + shareBefore(high[a] / params.reach) - 1.0;
+  return float(around) >= share * params.deepNeighbors;
+}
 
 void main() {
   uint local = clusterInvocation();
@@ -187,25 +218,32 @@ void main() {
   vec3 x = predicted.xyz;
   if (CULL_SOLIDS) cullSolids(x, inRange && isActive(x));
 
-  at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
+  at = firstGroup(local);
   place = x;
   self = i;
   uint zone = uint(max(-predicted.w, 0.0));  // of reorder.comp
   bool asleep = REGIONS && zone != kZoneMoves;
   vec3 scaled = scaledPosition(x);
   addToColumns(inRange, x);
-  Images images = imagesNear(x, params.reach);
+  Images images = imagesNear(x, params.nearReach);
   bool more = inRange && isActive(x) && (!REGIONS || zone <= kZoneWatched), nearWall = more && images.near != uvec3(1u);
   listable = !(THIN && nearWall);  // a segment cannot name the images of thin domains: the particle walks the grid
-  bool segments = LIST_CAPACITY != 0u && listable && nearWall;
+  bool far = TENSION && LIST_CAPACITY != 0u;  // far neighbors come first
+  bool segments = LIST_CAPACITY != 0u && listable && (nearWall || (TENSION && more));
+  if (INTERFACES) {
+    ownFluid = fluidOfPrediction(predicted.w);
+    hasInterface = coverRow(ownFluid) != uvec4(0xffffffffu);
+  }
   LOOP_WHILE (subgroupAny(more)) {
     vec3 signs;
-    image = nextImage(images);
-    place = imageOf(image, x, signs);
+    image = far ? kFarSegment : nextImage(images);
+    place = far ? x : imageOf(image, x, signs);
+    reachSquared = far ? params.reach * params.reach : nearSquared;
     if (segments && more) beginSegment();
-    walkGrid(scaled, scaled, more, params.reach);
-    if (segments && more) endSegment(image);
-    more = segments && advance(images) && more;
+    walkGrid(scaled, scaled, more, far ? params.reach : params.nearReach);
+    if (segments && more) endSegment(far && isDeep(x) ? kDeepSegment : image);
+    if (!far) more = segments && advance(images) && more;
+    far = false;
   } LOOP_END(subgroupAny(more));
   if (REGIONS) {
     uint sleeping = subgroupAdd(uint(inRange && asleep));

@@ -29,5 +29,6 @@ layout(constant_id = 25) const bool FLUIDS = false;    // there are several flui
 layout(constant_id = 26) const bool DIFFUSES = false;  // some of them diffuse
 layout(constant_id = 27) const bool INTERFACES = false;  // some have tension between them
 layout(constant_id = 28) const bool SHEAR_VISCOSITY = false;  // shear changes the viscosity of a fluid
+layout(constant_id = 29) const bool TENSION = false;   // the surface has tension: lists have a segment of far neighbors
 #define LIST_OVERSIZED_ID 13
 #endif

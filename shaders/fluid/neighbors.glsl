@@ -5,7 +5,8 @@
 // and `void visit(PARTICLE particle)`, and binds at 2 the array whose elements are handed over; with
 // COMPANION(j) defined, `void visit(PARTICLE particle, vec4 companion)`. Particles beyond the support
 // and dummies are visited too. With IMAGES defined, also the images of the particle and its neighbors
-// behind walls (fluid/images.glsl), for which the shader defines `void reflectSums(vec3 signs)`.
+// behind walls (fluid/images.glsl), for which the shader defines `void reflectSums(vec3 signs)`. Far
+// neighbors of a fluid with surface tension are left out.
 #ifndef RILL_NEIGHBORS_GLSL
 #define RILL_NEIGHBORS_GLSL
 #include "shared/loops.glsl"
@@ -45,6 +46,10 @@ void candidates(uint first, uint end) {
 }
 #include "fluid/walk.glsl"
 
+#ifndef WALK_REACH
+#define WALK_REACH params.nearReach
+#endif
+
 #ifdef COMPANION
 #define VISIT(j, particle) visit(particle, COMPANION(j))
 #else
@@ -54,9 +59,10 @@ void candidates(uint first, uint end) {
 uint dummy = params.capacity;  // loaded once, see kernel.glsl
 
 // The neighbor that an entry of the list leads to from neighbor j, or the dummy; moves j on.
+uint longStep(uint entry) { return uint(int(entry << 20) >> (20 - kLongStepShift)); }
 uint nextNeighbor(inout uint j, uint entry) {
   bool isLong = entry >= kLongStep;
-  j += isLong ? uint(int(entry << 20) >> (20 - kLongStepShift)) : entry;
+  j += isLong ? longStep(entry) : entry;
   return isLong ? dummy : j;
 }
 
@@ -72,18 +78,28 @@ bool sleeps(uint head) { return REGIONS && (head & kAsleepBit) != 0u; }
 void reflectSums(vec3 signs) {}
 #endif
 
+// Groups of the far segment that the list at `at` begins with.
+uint farGroups(uint at) {
+  uint segment = listAt(at).x & 0xfffu;
+  return segment >> kSegmentGroupBits >= kDeepSegment ? segment & kMaxSegmentGroups : 0u;
+}
+
 // Visits the particles of the list of particle i, at invocation `local` of its chunk.
 void visitListed(uint i, uint head, uint local) {
   uint count = head & kUnlisted;
-  uint at = (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock;
+  uint at = firstGroup(local);
   uint groups = count == kUnlisted ? 0u : (count + 3u) / 4u;
   uint first = i - (head >> kHeadDistanceShift);
   uint k = 0u;
   vec3 from = here;
+  if (TENSION && (head & kSegmentsBit) != 0u) {  // far neighbors come first
+    k = farGroups(at);
+    at += k * kListBlock;
+  }
   LOOP_WHILE (k < groups) {
     uint end = groups, j = first;
     vec3 signs = vec3(1.0);
-    if (WALLS && (head & kSegmentsBit) != 0u) {
+    if ((WALLS || TENSION) && (head & kSegmentsBit) != 0u) {
       uint segment = listAt(at).x & 0xfffu, image = segment >> kSegmentGroupBits;
       end = k + max(segment & kMaxSegmentGroups, 1u);
 #ifdef IMAGES
@@ -91,7 +107,7 @@ void visitListed(uint i, uint head, uint local) {
 #else
       if (image != 0u) groups = end = k;
 #endif
-      j -= uint(int(segment << 20) >> (20 - kLongStepShift));  // the segment's first entry is read as a step, too
+      j -= longStep(segment);  // the segment's first entry is read as a step, too
     }
     reflectSums(signs);
     LOOP_WHILE (k < end) {
@@ -122,7 +138,7 @@ void visitAround(uint i, bool walks) {
     place = imageOf(n, from, signs);
     self = n == 0u ? i : 0xffffffffu;
     reflectSums(signs);
-    walkGrid(home, home + 1.0, more, params.reach);
+    walkGrid(home, home + 1.0, more, WALK_REACH);
     reflectSums(signs);
 #ifdef IMAGES
     more = advance(images) && more;

@@ -8,7 +8,6 @@ const uint kSampleParts = kTensionSamples / 4u;
 struct Samples {
   vec4 part[kSampleParts];
 };
-const float kLeastExposure = 1.0e-4;  // of a sample that counts; halves hold it
 #define EACH_PART(k) [[unroll]] for (uint k = 0u; k < kSampleParts; ++k)
 
 Samples ofAll(float value) {
@@ -40,10 +39,13 @@ vec3 resultant(Samples s) {
          kTensionC * vec3(edge.z + edge.w, rest.x - rest.y, edge.x - edge.y);
 }
 
+float sampleRadius = kTensionRadius * params.spacing;  // m
+float inverseSquare = 1.0 / (kTensionSupport * kTensionSupport * params.spacing * params.spacing);
+float alongApart = 2.0 * sampleRadius * inverseSquare, atCenter = 1.0 - sampleRadius * sampleRadius * inverseSquare;
+
 // 1 - l^2, 0 beyond the support, of the samples around a particle that is at `apart` (m) from another, for that one.
 Samples nearness(vec3 apart) {
-  float radius = kTensionRadius * params.spacing, inverse = 1.0 / (kTensionSupport * params.spacing);
-  Samples s = along(2.0 * radius * inverse * inverse * apart, 1.0 - (dot(apart, apart) + radius * radius) * inverse * inverse);
+  Samples s = along(alongApart * apart, atCenter - dot(apart, apart) * inverseSquare);
   EACH_PART(k) s.part[k] = max(s.part[k], vec4(0.0));
   return s;
 }

@@ -18,6 +18,9 @@ vec3 wallsHigh() { return vec3(params.highX, params.highY, params.highZ); }
 // Whether x is above the level of the outflow, whose side is no wall there.
 bool aboveOutflow(vec3 x) { return OUTFLOW && x.y > params.outflowLevel; }
 
+// The first group of the list of the particle at `local` in its chunk: see shared/neighbor_list.h.
+uint firstGroup(uint local) { return (local / kListBlock) * (kListBlock * (LIST_CAPACITY / 4u)) + local % kListBlock; }
+
 // Keeps a center half a spacing off the domain's walls. NaN and inactive particles are returned unchanged.
 vec3 insideWalls(vec3 x) {
   if (!isActive(x) || !isWithin(x, 3.0e38)) return x;

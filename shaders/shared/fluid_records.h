@@ -68,7 +68,8 @@ struct FluidParams {
   float columnGravityX, columnGravityY, columnGravityZ;  // m/s^2, the strongest; 0: the head does not follow the fluid along this axis
   float columnLimitX, columnLimitY, columnLimitZ;        // m, the largest height of a column
   float warmRelease;      // times kappa where density is below rest density
-  float reach;            // m, support plus skin: the list holds what was nearer when it was built
+  float reach;            // m, the longest of all supports plus skin: the list holds what was nearer when it was built
+  float nearReach;        // m, the kernel's support plus skin; less than `reach` with surface tension
   float travelLimit;      // m that the fastest particle may move before the list is rebuilt
   float cfl;              // spacings a substep
   float maxStep;          // s, as the scene asks for; see stability.glsl
@@ -89,7 +90,7 @@ struct FluidParams {
   float tensionRate;      // 1/s^2, of the force of a sample of the surface on a particle: see engine/sph/surface_tension.hpp
   float tensionWall;      // m/s^2, the same where the sample's weight changes by 1 in a spacing
   float wettingCosine;    // of the contact angle
-  uint deepNeighbors;     // entries of the list that a particle away from any surface has at least
+  float deepNeighbors;    // within `reach`: a particle away from any surface has at least so many
   float vorticity;        // dimensionless
   float drag;             // 1/s
   // artificial pressure, 1/s^2: times the square of the step it is a multiplier over 1 / D of the

@@ -7,6 +7,9 @@
 // A particle near walls also counts images of neighbors, and of itself, behind them (fluid/images.glsl). Its list is then a sequence of
 // segments, at most one for each image: an entry that names the image and how many groups of four entries the segment has, itself among
 // them, and neighbors, whose steps start from the same particle in each segment. Image 0, the neighbors themselves, comes first.
+//
+// In a fluid with surface tension every list is made of segments. Before the others comes one, in place of an image, of the neighbors that
+// the solver's kernel does not reach but samples of the surface do.
 #ifndef RILL_NEIGHBOR_LIST_H
 #define RILL_NEIGHBOR_LIST_H
 #include "shared/interop.h"
@@ -21,6 +24,8 @@ RILL_CONST uint kLongStepShift = 15u;
 RILL_CONST uint kSegmentGroupBits = 7u;
 RILL_CONST uint kMaxSegmentGroups = (1u << kSegmentGroupBits) - 1u;
 RILL_CONST uint kSegmentImages = 27u;  // images that a segment can name
+RILL_CONST uint kDeepSegment = 30u;    // the far neighbors of a particle among so many that no surface is near
+RILL_CONST uint kFarSegment = 31u;     // those of another
 
 // List head: the number of entries, kUnlisted if they are more than the list holds; whether a solid is near; whether the list is made of
 // segments; whether the particle sleeps; and the distance (particles) from which the first step starts.

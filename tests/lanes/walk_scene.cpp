@@ -39,7 +39,7 @@ WalkScene::WalkScene() {
   params.valueScale = 0.05f;
   params.gradientScale = -1;
   params.inverseRestGradient = 1;
-  params.reach = kReach;
+  params.reach = params.nearReach = kReach;
   params.inverseCell = 1 / kReach;
   params.gridSizeX = 16;
   params.gridSizeY = params.gridSizeZ = 6;

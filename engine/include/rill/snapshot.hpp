@@ -64,7 +64,8 @@ struct FluidSnapshot {
   uint32_t listCapacity = 0;                 ///< capacity of the list, entries per particle; a neighbor takes one or two
   std::vector<uint32_t> neighborCount = {};  ///< neighbors of each particle; empty without a valid list
   /// Concatenated by particle; without those of particles that exceed the capacity. Near walls an entry kImageOfNeighbors + k comes before
-  /// those whose image k (shaders/fluid/images.glsl) is near; 0 is the neighbors themselves.
+  /// those whose image k (shaders/fluid/images.glsl) is near; 0 is the neighbors themselves. With surface tension those that only samples
+  /// of the surface reach come first, after kImageOfNeighbors + 30 or 31 (shaders/shared/neighbor_list.h).
   std::vector<uint32_t> neighbors = {};
   std::vector<uint32_t> cell = {};  ///< cell of each particle when they were sorted, plus their number in a region asleep
   friend bool operator==(const FluidSnapshot&, const FluidSnapshot&) = default;
