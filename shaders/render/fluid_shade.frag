@@ -125,6 +125,30 @@ vec3 lossAt(vec2 pixel) {
   return sum;
 }
 
+// What fluid scatters of the light that falls on it where its surface has this normal of the scene.
+vec3 scatteredLight(vec3 world_normal) {
+  return skyLight(world_normal) + 0.5 * sunlight() * (0.3 + 0.7 * max(dot(world_normal, look.light.xyz), 0.0));
+}
+
+// Normal where the fluids behind the front one begin, at depth z, as if they were as thick on both sides of their middle. Exact for a ball,
+// and smooth, which the depth where a particle begins is not.
+vec3 normalBehind(vec2 pixel, uint front, float z) {
+  const float reach = max(float(look.finish.y), view.spacing / metersAPixel(z));  // pixels
+  vec3 sides[4];
+  for (int k = 0; k < 4; ++k) {
+    const vec2 axis_of_picture = k < 2 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    const vec2 at = clamp(pixel + ((k & 1) == 0 ? -reach : reach) * axis_of_picture, vec2(0.0), pictureSize());
+    const Around near = around(at);
+    float behind = 0.0;
+    for (uint fluid = 0u; fluid < FLUIDS; ++fluid) behind += fluid == front ? 0.0 : thicknessOf(fluid, near);
+    const vec2 axis = axisOf(at);
+    sides[k] = rayFrom(axis) + (z - 0.5 * behind) * rayAlong(axis);
+  }
+  const vec3 normal = cross(sides[1] - sides[0], sides[3] - sides[2]);
+  const float size = length(normal);
+  return size > 0.0 ? normal * (normal.z > 0.0 ? -1.0 : 1.0) / size : vec3(0.0, 0.0, -1.0);
+}
+
 // Of a ray in the fluid: what it lets through, what it adds to that, and the mean of what it meets.
 struct Passage {
   vec3 through, added;
@@ -135,7 +159,7 @@ vec3 addedBy(Interior interior, vec3 through, vec3 scattered) {
 }
 
 // Over `meters` of the ray of a pixel. Of several fluids that of the nearest comes first, where it begins before the others; those behind
-// it are taken to be mixed.
+// it are taken to be mixed, and have a surface of their own.
 Passage passage(vec2 pixel, float meters, vec3 scattered) {
   if (FLUIDS == 1u) {
     const vec3 through = exp(-look.absorption.rgb * meters);
@@ -162,9 +186,11 @@ Passage passage(vec2 pixel, float meters, vec3 scattered) {
   const Interior before = interiorOf(front);
   const vec3 before_through = exp(-before.absorption * (shorter * before_length)), behind_through = exp(-behind.absorption * shorter);
   const vec3 through = before_through * behind_through;
-  const vec3 layers = addedBy(before, before_through, scattered) +
-                      before_through * addedBy(meanOf(behind, sum - before_length), behind_through, scattered);
   const float apart = smoothstep(kApart.x, kApart.y, (next - begins) / view.spacing);
+  const bool seen = apart > 0.0 && next < noDepth();
+  const vec3 scattered_behind = seen ? scatteredLight(worldDirection(normalBehind(pixel, front, next))) : scattered;
+  const vec3 layers = addedBy(before, before_through, scattered) +
+                      before_through * addedBy(meanOf(behind, sum - before_length), behind_through, scattered_behind);
   return Passage(through, mix(addedBy(mixed, through, scattered), layers, apart), mixed);
 }
 
@@ -320,7 +346,7 @@ void main() {
   // Reflections in spray would flicker from pixel to pixel. A straight silhouette reflects in full.
   reflected *= z <= nearestDrawn() ? 0.0 : smoothstep(kReflectionFade.x, kReflectionFade.y, mean_normal.coherence);
   highlight *= smoothstep(kHighlightFade.x, kHighlightFade.y, mean_normal.coherence);
-  const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, ambient + 0.5 * sunlight() * (0.3 + 0.7 * lit));
+  const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, scatteredLight(world_normal));
   const vec3 mirror = reflectedLight(pixel, world_sight, mirrored, spread);
 #endif
   const vec3 fluid = mix(body, mirror, reflected) + sunlight() * (reflected * highlight);

@@ -223,6 +223,20 @@ TEST_F(TwoFluids, FluidBelowIsSeenInTheLightThatTheUpperOneLetsThrough) {
   EXPECT_GT(deep[2], 0.5 * shallow[2]) << "the milk is seen";
 }
 
+// A ball of milk in water is brighter where it faces the sun, which stands at -0.36, 1, 0.52.
+TEST_F(TwoFluids, FluidInsideIsShadedByItsShape) {
+  scene_.look.preset = "milk";
+  scene_.fluids = {{.name = "milk"}, {.name = "water", .color = Double3{0.8, 0.95, 1}}};
+  scene_.camera = Camera{.eye = {0.4, 0.2, 1.6}, .target = {0.4, 0.2, 0.15}, .fov_y_deg = 32};
+  box({0, 0, 0}, {0.8, 0.4, 0.3}, 1);
+  for (Float4& p : particles_)
+    if (std::hypot(p.x - 0.4, p.y - 0.2, p.z - 0.15) < 0.11) p.w = 0;
+  const auto pixels = picture();
+  const Color above = at(pixels, {0.37, 0.26, 0.25}), middle = at(pixels, {0.4, 0.2, 0.25}), below = at(pixels, {0.43, 0.14, 0.25});
+  EXPECT_GT(above[1], 1.03 * middle[1]);
+  EXPECT_GT(middle[1], 1.03 * below[1]);
+}
+
 // Sunlight colors the floor by the fluid that it has come through, as a plain shadow and as caustics.
 TEST_F(TwoFluids, ShadowsHaveTheirColors) {
   scene_.domain = Domain{{0, 0, 0}, {1.6, 1, 1}};
