@@ -36,8 +36,6 @@ constexpr double kFarSpacings = 1.0e6;
 // Entries for what begins and fills the segments of a particle in a corner, but for those that its neighbors leave.
 constexpr uint32_t kSegmentRoom = 16;
 
-// Of near neighbors, in spacings: lists of slow drops live long (docs/notes/surface-tension.md).
-constexpr double kTensionSkin = 0.7;
 constexpr SideMask kEverySide = 0b111111;
 
 // As many stages as the longest block asks for where the fluid is somewhat denser than its rest lattice.
@@ -159,8 +157,8 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setRegularization(scene, kernel, setup);
   setRelaxation(setup);
   p.reach = f(std::max(h, reachOfTension(scene) * d) + kListSkin * d);
-  p.nearReach = reachOfTension(scene) > 0 ? std::min(p.reach, f(h + kTensionSkin * d)) : p.reach;
-  p.travelLimit = f(kTravel * d);
+  p.nearReach = reachOfTension(scene) > 0 ? f(h + kListSkin * d) : p.reach;
+  p.travelLimit = f((reachOfTension(scene) > 0 ? kTravelWithTension : kTravel) * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
   p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), hasWalls(scene)) : 0u;
   setCfl(scene, setup);

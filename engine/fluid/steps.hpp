@@ -10,6 +10,8 @@ namespace rill {
 
 /// Spacings that the fastest particle may move before the list is rebuilt.
 inline constexpr double kTravel = 1.2;
+/// Where there is surface tension: drops whose particles meet unseen drift (docs/notes/surface-tension.md).
+inline constexpr double kTravelWithTension = 0.6;
 
 /// The widest side of `room`, m.
 double widest(const Double3& room);
