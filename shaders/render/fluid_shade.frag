@@ -130,23 +130,22 @@ vec3 scatteredLight(vec3 world_normal) {
   return skyLight(world_normal) + 0.5 * sunlight() * (0.3 + 0.7 * max(dot(world_normal, look.light.xyz), 0.0));
 }
 
-// Normal where the fluids behind the front one begin, at depth z, as if they were as thick on both sides of their middle. Exact for a ball,
-// and smooth, which the depth where a particle begins is not.
-vec3 normalBehind(vec2 pixel, uint front, float z) {
-  const float reach = max(float(look.finish.y), view.spacing / metersAPixel(z));  // pixels
+// Normal where the fluids behind the front one begin, at depth z, as if they were as thick on both sides of their middle: of a ball its
+// own, and smooth, which the depth where a particle begins is not. `behind`: how thick they are on the pixel's ray, m.
+vec3 normalBehind(vec2 pixel, uint front, float z, float behind) {
+  const float half_step = 0.5 * float(look.finish.y), reach = max(2.0 * half_step, view.spacing / metersAPixel(z));  // pixels
   vec3 sides[4];
   for (int k = 0; k < 4; ++k) {
-    const vec2 axis_of_picture = k < 2 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-    const vec2 at = clamp(pixel + ((k & 1) == 0 ? -reach : reach) * axis_of_picture, vec2(0.0), pictureSize());
+    const vec2 to = ((k & 1) == 0 ? -reach : reach) * (k < 2 ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
+    const vec2 at = clamp(pixel + to, vec2(half_step), pictureSize() - half_step), axis = axisOf(at);
     const Around near = around(at);
-    float behind = 0.0;
-    for (uint fluid = 0u; fluid < FLUIDS; ++fluid) behind += fluid == front ? 0.0 : thicknessOf(fluid, near);
-    const vec2 axis = axisOf(at);
-    sides[k] = rayFrom(axis) + (z - 0.5 * behind) * rayAlong(axis);
+    float there = 0.0;
+    for (uint fluid = 0u; fluid < FLUIDS; ++fluid) there += fluid == front ? 0.0 : thicknessOf(fluid, near);
+    sides[k] = rayFrom(axis) + max(z + 0.5 * (behind - there), nearestDrawn()) * rayAlong(axis);
   }
-  const vec3 normal = cross(sides[1] - sides[0], sides[3] - sides[2]);
+  const vec3 normal = cross(sides[1] - sides[0], sides[3] - sides[2]), along = rayAlong(axisOf(pixel));
   const float size = length(normal);
-  return size > 0.0 ? normal * (normal.z > 0.0 ? -1.0 : 1.0) / size : vec3(0.0, 0.0, -1.0);
+  return size > 0.0 ? normal * (dot(normal, along) > 0.0 ? -1.0 : 1.0) / size : -normalize(along);
 }
 
 // Of a ray in the fluid: what it lets through, what it adds to that, and the mean of what it meets.
@@ -188,7 +187,7 @@ Passage passage(vec2 pixel, float meters, vec3 scattered) {
   const vec3 through = before_through * behind_through;
   const float apart = smoothstep(kApart.x, kApart.y, (next - begins) / view.spacing);
   const bool seen = apart > 0.0 && next < noDepth();
-  const vec3 scattered_behind = seen ? scatteredLight(worldDirection(normalBehind(pixel, front, next))) : scattered;
+  const vec3 scattered_behind = seen ? scatteredLight(worldDirection(normalBehind(pixel, front, next, sum - before_length))) : scattered;
   const vec3 layers = addedBy(before, before_through, scattered) +
                       before_through * addedBy(meanOf(behind, sum - before_length), behind_through, scattered_behind);
   return Passage(through, mix(addedBy(mixed, through, scattered), layers, apart), mixed);
@@ -331,15 +330,13 @@ void main() {
   const float cosine = clamp(-dot(normal, sight), 0.0, 1.0);
   const vec3 world_normal = worldDirection(normal), world_sight = worldDirection(sight), mirrored = reflect(world_sight, world_normal);
   const vec3 sun = look.light.xyz;
-  const float lit = max(dot(world_normal, sun), 0.0);
-  const vec3 ambient = skyLight(world_normal);
   float reflected = fresnel(cosine, look.absorption.w);
   const float spread = reflectedSpread(pixel, normal);
   // A highlight that the surface's curvature widens keeps its energy.
   const float widened = 1.0 / (1.0 + 0.25 * look.finish.x * spread * spread);
   float highlight = pow(max(dot(mirrored, sun), 0.0), look.finish.x * widened) * look.light.w * widened;
 #ifdef OPAQUE
-  const vec3 body = look.scatter.rgb * (ambient + sunlight() * lit) + look.emission.rgb;
+  const vec3 body = look.scatter.rgb * (skyLight(world_normal) + sunlight() * max(dot(world_normal, sun), 0.0)) + look.emission.rgb;
   const vec3 mirror = skyColor(mirrored, sun, spread);
 #else
   const MeanNormal mean_normal = meanNormalAt(vec2(pixel) + 0.5, z, normal, sight);
