@@ -33,7 +33,7 @@ constexpr double kContactFall = 0.005;  // spacings that bodies fall in a step, 
 constexpr double kSeparationRate = 10;  // 1/s: spacings a second by which bodies that overlap come apart, without gravity
 // Spacings: beyond it, positions have lost their meaning: float holds 24 bits.
 constexpr double kFarSpacings = 1.0e6;
-// Entries for what begins and fills the segments of a particle in a corner, but for those that its neighbors leave.
+// Entries for what begins and fills the segments of a particle: in a corner, or with far neighbors. But for those that its neighbors leave.
 constexpr uint32_t kSegmentRoom = 16;
 
 constexpr SideMask kEverySide = 0b111111;
@@ -123,11 +123,13 @@ size_t pressureProbeCount(const Scene& scene) {
 
 double listReach(const Scene& scene) { return std::max(scene.fluid.smoothing_ratio, reachOfTension(scene)) + kListSkin; }
 
-uint32_t listCapacity(double reachInSpacings, bool walls) {
+bool hasSegments(const Scene& scene) { return hasWalls(scene) || reachOfTension(scene) > 0; }
+
+uint32_t listCapacity(double reachInSpacings, bool segments) {
   constexpr double kMaxReach = 5;  // spacings: more than any scene has that is allowed
   const double reach = std::fmin(std::fmax(reachInSpacings, 0), kMaxReach);
   const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(reach, 3);
-  const uint32_t entries = (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u + (walls ? kSegmentRoom : 0);
+  const uint32_t entries = (static_cast<uint32_t>(std::ceil(1.2 * ball)) + 3u) / 4u * 4u + (segments ? kSegmentRoom : 0);
   assert(entries < kUnlisted && entries / 4 <= kMaxSegmentGroups);
   return entries;
 }
@@ -160,7 +162,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.nearReach = reachOfTension(scene) > 0 ? f(h + kListSkin * d) : p.reach;
   p.travelLimit = f((reachOfTension(scene) > 0 ? kTravelWithTension : kTravel) * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
-  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), hasWalls(scene)) : 0u;
+  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), hasSegments(scene)) : 0u;
   setCfl(scene, setup);
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error at which the fluid is unstable.

@@ -137,8 +137,11 @@ inline bool keepsMultipliers(const FluidSetup& setup) { return setup.params.iter
 double meltingTime(const Scene& scene);
 
 /// Entries that the list holds a particle, a multiple of 4: of the neighbors that a lattice compressed by a fifth puts within the reach,
-/// and where there are walls of what segments take.
-uint32_t listCapacity(double reachInSpacings, bool walls);
+/// and of what segments take.
+uint32_t listCapacity(double reachInSpacings, bool segments);
+
+/// Whether neighbors in its lists are in segments: images behind walls, or far neighbors.
+bool hasSegments(const Scene& scene);
 
 /// How far the neighbor list reaches, in spacings.
 double listReach(const Scene& scene);

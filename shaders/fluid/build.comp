@@ -255,7 +255,8 @@ void main() {
   if (LIST_CAPACITY != 0u) {
     uint all = stored + holds;
     padAndStore();
-    bool fits = listable && all <= LIST_CAPACITY;
+    // The walk for far neighbors may have left none for the near ones.
+    bool fits = listable && all <= LIST_CAPACITY && !(TENSION && walked >= kWalkBound);
     head = (fits ? all : kUnlisted) | (segments ? kSegmentsBit : 0u) | headDistance << kHeadDistanceShift;
     if (!fits) atomicAdd(sums.overflow, 1u);
   }

@@ -24,7 +24,7 @@ READ_FLOAT4(11, solidPlane)  // xyz: away from the nearest solid, w: distance in
 vec3 here;
 uvec4 coverOfFluids;
 Samples samples = ofAll(0.0);  // first how far they are covered, then their weight times 1 - c
-float toUnits;                 // of a force over params.tensionRate, which is a length
+float toUnits = 0.0;           // of a force over params.tensionRate, which is a length
 ivec3 ownForce = ivec3(0);
 
 float coverOf(vec4 particle) { return INTERFACES ? coverBy(coverOfFluids, fluidOfPosition(particle)) : 1.0; }
@@ -56,6 +56,7 @@ void visit(vec4 particle, vec4 companion) {
   else cover(particle);
 }
 #define WALK_REACH params.reach
+#define SCATTERED
 #include "fluid/neighbors.glsl"
 
 // The list of a particle but for images: its far neighbors, then the near ones.
@@ -66,7 +67,7 @@ List listOf(uint i, uint head, uint local) {
   uint count = head & kUnlisted, all = count == kUnlisted ? 0u : (count + 3u) / 4u;
   List l = List(firstGroup(local), i - (head >> kHeadDistanceShift), 0u, 0u);
   l.farGroups = min(farGroups(l.at), all);
-  uint segment = listAt(l.at + l.farGroups * kListBlock).x & 0xfffu;
+  uint segment = listAt(l.at + min(l.farGroups, LIST_CAPACITY / 4u - 1u) * kListBlock).x & 0xfffu;
   bool near = l.farGroups < all && segment >> kSegmentGroupBits == 0u;
   l.groups = l.farGroups + (near ? segment : 0u);
   return l;
@@ -164,7 +165,7 @@ bool expose(uint i, uint head, uint fluid) {
   float sum = 0.0;
   EACH_PART(k) sum += dot(abs(samples.part[k]), vec4(1.0));
   toUnits = tensionOf(fluid) * kTensionUnits / params.spacing;
-  return sum > 0.0;
+  return sum > 0.0 && toUnits > 0.0;
 }
 
 void main() {

@@ -7,17 +7,30 @@
 #include "fluid/cell_rows.glsl"
 #include "shared/loops.glsl"
 
+// Lanes go through rows of cells together. Where a cluster holds particles from anywhere (SCATTERED) only those of one cell do: what a
+// particle visits, and in which order, must not depend on the others.
+#ifdef SCATTERED
+#define TURN vec3
+#define turnOf(low) floor(low)
+#define rowOf(turn) (turn).yz
+#else
+#define TURN vec2
+#define turnOf(low) floor((low).yz)
+#define rowOf(turn) (turn)
+#endif
+
 uint walked = 0u;  // candidates, in all walks of the invocation
 
 // `boxLow` to `boxHigh`: a box in one cell, in cells, that held the lane's particle when the cells
 // were sorted; `waits`: whether the lane still has to visit its neighbors. `reach` (m): at most a
 // cell's edge in y.
 void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
-  vec2 cell = floor(boxLow.yz);
-  uint leader = clusterMin(waits ? clusterLane : CLUSTER), turn = 0u;
-  LOOP_WHILE (ANY_LANE(leader < CLUSTER) && turn < CLUSTER) {
-    vec2 row = SPREAD(cell, leader & (CLUSTER - 1u));
-    bool mine = waits && (cell == row || clusterLane == leader);  // the leader at least, whatever NaN compares like
+  TURN own = turnOf(boxLow);
+  uint leader = clusterMin(waits ? clusterLane : CLUSTER), turns = 0u;
+  LOOP_WHILE (ANY_LANE(leader < CLUSTER) && turns < CLUSTER) {
+    TURN next = SPREAD(own, leader & (CLUSTER - 1u));
+    vec2 row = rowOf(next);
+    bool mine = waits && (own == next || clusterLane == leader);  // the leader at least, whatever NaN compares like
     if (mine) waits = false;
     vec3 low = clusterMin(mine ? boxLow : vec3(2.0e9)), high = clusterMax(mine ? boxHigh : vec3(-2.0e9));
     takeTurn(mine);
@@ -37,18 +50,18 @@ void walkGrid(vec3 boxLow, vec3 boxHigh, bool waits, float reach) {
         uint from = SPREAD(begin, lane), to = max(from, SPREAD(end, lane));
         if (walked >= kWalkBound) to = from;
         LOOP_WHILE (ANY_LANE(from < to)) {
-          uint next = min(to, from + kWindow);
-          candidates(from, next);
+          uint end_of_window = min(to, from + kWindow);
+          candidates(from, end_of_window);
           walked += from < to ? kWindow : 0u;
-          from = walked < kWalkBound ? next : to;
+          from = walked < kWalkBound ? end_of_window : to;
         } LOOP_END(ANY_LANE(from < to));
         ++lane;
       } LOOP_END(lane < CLUSTER && ANY_LANE(base + lane < rows));
       base += CLUSTER;
     } LOOP_END(ANY_LANE(base < rows));
     leader = clusterMin(waits ? clusterLane : CLUSTER);
-    ++turn;
-  } LOOP_END(ANY_LANE(leader < CLUSTER) && turn < CLUSTER);
+    ++turns;
+  } LOOP_END(ANY_LANE(leader < CLUSTER) && turns < CLUSTER);
   if (walked >= kWalkBound && clusterLane == 0u) atomicAdd(sums.boundHits, 1u);
 }
 #endif

@@ -123,6 +123,7 @@ TEST_F(SnapshotTest, ContinuesWithForces) {
     t.scene.fluid.viscosity = viscosity;
     t.scene.fluid.vorticity = 0.3;
     t.scene.fluid.tensile = 0.5;
+    t.scene.fluid.surface_tension = viscosity > 1 ? 20 : 0;
     t.scene.gravity_changes = {{0.02, {3, -9, 0}}, {0.045, {0, 5, 1}}};
     t.scene.solids = {moving(ball({0.55, 0.15, 0.1875}, 0.1))};
     expectTheSame(t);

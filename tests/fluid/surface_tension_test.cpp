@@ -4,13 +4,14 @@
 #include <glm/geometric.hpp>
 
 #include "fluid/rig.hpp"
+#include "fluid/snapshot.hpp"
 
 namespace rill::test {
 namespace surface_tension_test {
 
 using SurfaceTensionTest = FluidTest;
 
-constexpr double kTensionOne = 3e-4, kTensionTen = 2e-3, kTensionAgeing = 0.1;  // spacings; samples travel as halves
+constexpr double kTensionOne = 3e-4, kTensionTen = 2e-3, kTensionAgeing = 0.1;  // spacings
 
 Trial withTension(double contactAngle = 90) {
   Trial t = trial();
@@ -23,7 +24,7 @@ TEST_F(SurfaceTensionTest, CloudMatchesReference) {
   Trial t = withTension();
   t.x = cloud(400, 7.4 * t.d(), 11);
   t.v = cloud(400, 1.0, 12, glm::dvec3(-0.5));
-  expectEqual(t, 1, kTensionOne, kTensionOne, 0.001);  // full lists are taken for those of particles away from holes
+  expectEqual(t, 1, kTensionOne, kTensionOne, 0.001);  // particles with enough neighbors are taken for deep
 }
 
 TEST_F(SurfaceTensionTest, BlockMatchesReference) {
@@ -87,7 +88,7 @@ TEST_F(SurfaceTensionTest, InterfacesMatchReference) {
   }
 }
 
-// Inside fluid, where lists are full.
+// Inside fluid, where particles are deep.
 TEST_F(SurfaceTensionTest, DropInsideFluidMatchesReference) {
   Trial t = withTension();
   t.scene.fluid.surface_tension = 0;
@@ -98,6 +99,23 @@ TEST_F(SurfaceTensionTest, DropInsideFluidMatchesReference) {
   for (const glm::dvec3& x : t.x) t.fluids.push_back(glm::length(x - glm::dvec3(6.5 * t.d())) < 3.5 * t.d() ? 1 : 0);
   expectEqual(t, 1, kTensionOne, kTensionOne);
   expectEqual(t, 5, kTensionTen, kTensionTen, kTensionAgeing);
+}
+
+TEST_F(SurfaceTensionTest, RejectsListsOfAFluidWithoutIt) {
+  Trial t = withTension();
+  t.x = block({4, 4, 4}, t.d());
+  t.scene.fluid.surface_tension = 0;
+  auto run = start(t);
+  run->substeps(2);
+  FluidSnapshot saved = run->saved();
+  ASSERT_TRUE(hasNeighbors(saved));
+  t.scene.fluid.surface_tension = 200;
+  saved.listCapacity = start(t)->saved().listCapacity;
+  const Scene scene = t.timedScene();
+  const ParticleSet particles = t.particles();
+  const auto made = Fluid::create(rillDevice(), {.scene = &scene, .particles = &particles, .snapshot = &saved});
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("far neighbors"), std::string::npos) << made.error().message;
 }
 
 TEST_F(SurfaceTensionTest, HandlesCoincidentParticlesOfTwoFluids) {
