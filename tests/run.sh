@@ -10,7 +10,7 @@ usage() {
 Usage: ./tests/run.sh [--no-install] [--long] [--help] [CTEST OPTION...]
 
 Installs missing packages (Debian 12, Ubuntu 24.04 or newer; uses sudo if not root), builds, and runs
-  all tests on lavapipe,
+  all tests on lavapipe but those with the label long,
   tests with the label subgroups on lavapipe with a subgroup size of 16,
   tests with the label threads on lavapipe with one thread per core,
   tests with the label hostile-driver on lavapipe (they use what the specification leaves to drivers),
@@ -88,11 +88,11 @@ fi
 # concurrently in the tests with the label threads and on SwiftShader; without SwiftShader in those with subgroups of 16.
 export LP_NUM_THREADS=0
 run_tests "lavapipe" "$lavapipe" error "${round[@]}" -LE "^($skipped)$" "$@"
+# The rounds on subgroups are without validation, which takes half of the time: calls are those of the round on lavapipe.
 if [ -z "$swiftshader" ]; then
   RILL_TEST_VALIDATION=off LP_NATIVE_VECTOR_WIDTH=128 run_tests "lavapipe with subgroups of 4" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
   unset LP_NUM_THREADS
 fi
-# Without validation, which takes half of the time: calls are those of the round on lavapipe.
 RILL_TEST_VALIDATION=off LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16" "$lavapipe" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
 run_tests "hostile drivers" "$lavapipe" $none -L '^hostile-driver$' "$@"
 unset LP_NUM_THREADS

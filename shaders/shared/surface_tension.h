@@ -12,7 +12,7 @@ RILL_CONST float kTensionCalibration = 0.36f;  // a
 RILL_CONST float kTensionReach = 3.2f;        // r + s
 
 // Forces over rate (engine/sph/surface_tension.hpp) are added up as integers, so many of them a spacing. What one particle's samples do to
-// another is at most kMaxTension.
+// another is clamped to kMaxTension; 12 spacings are the most that occurs.
 RILL_CONST float kTensionUnits = 1048576.0f;
 RILL_CONST float kMaxTension = 100.0f * kTensionUnits;
 RILL_CONST uint kMaxSurfaceChunks = 16u;  // of the list of particles near surfaces: as many as of the neighbor list
