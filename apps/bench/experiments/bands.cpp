@@ -136,7 +136,7 @@ constexpr Band kBands[] = {
     {"crown", "share of fourfold modes", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
     {"crown", "turn of mode 4", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "degrees", ""},
     {"crown", "turn of mode 8", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "degrees", ""},
-    {"oil-drop", "period", 0.1, {0.2, kNotChecked, kNotChecked}, "%", kOilDrop},
+    {"oil-drop", "period", 0.1, {0.4, kNotChecked, kNotChecked}, "%", kOilDrop},
     {"oil-drop", "damping a period", kNoAim, {2, 2, 2}, "", ""},
     {"oil-drop", "pressure", 0.05, {0.2, kNotChecked, kNotChecked}, "%", kSkin},
     {"oil-drop", "drift of the center", 1e-4, {0.06, kNotChecked, kNotChecked}, "", "the walls take momentum"},
