@@ -193,7 +193,7 @@ ArrayShape arrayShape(const FluidSetup& setup) {
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
   const bool lists = scene.solver.neighbors != NeighborChoice::Grid;
   const uint64_t cells = maxGridCells(particles);
-  const uint64_t capacity = lists ? listCapacity(listReach(scene), hasSegments(scene)) : 0;
+  const uint64_t capacity = lists ? listCapacity(listReach(scene), listsHaveSegments(scene)) : 0;
   return {.particles = particles,
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
           .cellStarts = (scene.solver.sleep ? 2 : 1) * cells + 1 + uint64_t{removes(scene)},

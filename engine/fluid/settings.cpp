@@ -123,7 +123,7 @@ size_t pressureProbeCount(const Scene& scene) {
 
 double listReach(const Scene& scene) { return std::max(scene.fluid.smoothing_ratio, reachOfTension(scene)) + kListSkin; }
 
-bool hasSegments(const Scene& scene) { return hasWalls(scene) || reachOfTension(scene) > 0; }
+bool listsHaveSegments(const Scene& scene) { return hasWalls(scene) || reachOfTension(scene) > 0; }
 
 uint32_t listCapacity(double reachInSpacings, bool segments) {
   constexpr double kMaxReach = 5;  // spacings: more than any scene has that is allowed
@@ -162,7 +162,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   p.nearReach = reachOfTension(scene) > 0 ? f(h + kListSkin * d) : p.reach;
   p.travelLimit = f((reachOfTension(scene) > 0 ? kTravelWithTension : kTravel) * d);
   setup.substepsPerBlock = substepsPerBlock(scene.solver);
-  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), hasSegments(scene)) : 0u;
+  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), listsHaveSegments(scene)) : 0u;
   setCfl(scene, setup);
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error at which the fluid is unstable.

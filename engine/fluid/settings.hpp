@@ -140,8 +140,8 @@ double meltingTime(const Scene& scene);
 /// and of what segments take.
 uint32_t listCapacity(double reachInSpacings, bool segments);
 
-/// Whether neighbors in its lists are in segments: images behind walls, or far neighbors.
-bool hasSegments(const Scene& scene);
+/// Whether neighbors in a scene's lists are in segments: images behind walls, or far neighbors.
+bool listsHaveSegments(const Scene& scene);
 
 /// How far the neighbor list reaches, in spacings.
 double listReach(const Scene& scene);

@@ -17,7 +17,7 @@ inline constexpr double kTravelWithTension = 0.6;
 double widest(const Double3& room);
 
 /// As many as a list lives for where the step is the longest that the CFL condition allows, and one more: it is shorter as a rule. Where
-/// something else bounds the step, a list may live for long.
+/// something else bounds the step, as surface tension does, a list may live for long.
 uint32_t substepsPerBlock(const SolverSettings& solver);
 
 void setRegularization(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup);
