@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fluid/fluids.hpp"
+#include "fluid/near_solids.hpp"
 #include "fluid/steps.hpp"
 #include "fluid/viscosity.hpp"
 #include "shape/contact_points.hpp"
@@ -95,7 +96,8 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
        [](const ArrayShape& s) { return 2 * perParticleIfSolids(s); }, Account::Particles},
       {NearStiffness, "nearStiffness", "stiffness of bodies", Fluid, kWord,
        [](const ArrayShape& s) { return s.bodies > 0 ? s.particles : 0; }, Account::Particles},
-      {NearSolids, "nearSolids", "particles near solids", Fluid, sizeof(NearSolidRecord), perParticleIfSolids, Account::Particles},
+      {NearSolids, "nearSolids", "particles near solids", Fluid, kVector,
+       [](const ArrayShape& s) { return nearSolidQuads(s.solids) * perParticleIfSolids(s); }, Account::Particles},
 
       {CellStart, "cellStart", "cell starts", Fluid, kWord, [](const ArrayShape& s) { return s.cellStarts; }, Account::Grid},
       {List, "list", "neighbor list", Fluid, kListEntryBytes, [](const ArrayShape& s) { return s.listEntries; }, Account::List},

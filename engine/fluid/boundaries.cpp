@@ -118,18 +118,18 @@ BodyRecord bodyRecord(const Solid& solid, const MassProperties& m, uint32_t inde
           .offsetX = f(m.center.x),
           .offsetY = f(m.center.y),
           .offsetZ = f(m.center.z),
+          .radius = f(radiusAbout(solid.shape, m.center)),
+          .from = f(body.from),
           .mass = f(m.mass),
+          .locked = body.locked,
+          .held = body.from > 0,
+          .solid = index,
           .inertiaXX = f(i[0]),
           .inertiaYY = f(i[1]),
           .inertiaZZ = f(i[2]),
           .inertiaYZ = f(i[3]),
           .inertiaZX = f(i[4]),
-          .inertiaXY = f(i[5]),
-          .solid = index,
-          .locked = body.locked,
-          .from = f(body.from),
-          .held = body.from > 0,
-          .radius = f(radiusAbout(solid.shape, m.center))};
+          .inertiaXY = f(i[5])};
 }
 
 double fastestBody(const Scene& scene) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "fluid/fluid_impl.hpp"
+#include "fluid/near_solids.hpp"
 #include "gpu/device_impl.hpp"
 
 namespace rill {
@@ -41,6 +42,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"SOLIDS", p.solidCount > 0},
           {"MESHES", !setup.meshWords.empty()},
           {"CULL_SOLIDS", p.solidCount > kFewSolids},
+          {"NEAR_QUADS", nearSolidQuads(p.solidCount)},
           {"LOADS", setup.loads},
           {"BODIES", !setup.bodies.empty()},
           {"SHEAR_VISCOSITY", setup.shearViscosity},

@@ -14,6 +14,7 @@
 #include "fluid/arrays.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/flows.hpp"
+#include "fluid/near_solids.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "fluid/sleep.hpp"
 #include "shape/contact_points.hpp"
@@ -22,8 +23,6 @@
 
 namespace rill {
 namespace {
-
-static_assert(sizeof(NearSolids) == sizeof(NearSolidRecord) && sizeof(NearSolids::solids) == kListedSolids * sizeof(uint16_t));
 
 template <class Record>
 Record record(std::span<const uint32_t> words) {
@@ -87,15 +86,6 @@ bool markNew(std::vector<bool>& seen, std::span<const uint32_t> entries) {
     seen[entry] = true;
   }
   return true;
-}
-
-/// Whether the solids of an entry exist, increase, and end.
-bool listsSolids(const NearSolids& near, uint32_t solidCount) {
-  if (near.solids[0] == kAllSolids) return true;
-  const auto end = std::ranges::find(near.solids, uint16_t{kNoSolid});
-  return end != near.solids.begin() && std::all_of(end, near.solids.end(), [](uint16_t k) { return k == kNoSolid; }) &&
-         std::all_of(near.solids.begin(), end, [&](uint16_t k) { return k < solidCount; }) &&
-         std::adjacent_find(near.solids.begin(), end, std::greater_equal<>()) == end;
 }
 
 Expected<void> checkNear(const FluidSnapshot& s, const FluidSums& sums, const SnapshotShape& shape) {

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "fluid/fluid_impl.hpp"
+#include "fluid/near_solids.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "fluid/sleep.hpp"
 #include "fluid/snapshot.hpp"
@@ -77,7 +78,8 @@ Expected<void> SnapshotReader::take(const Graph& graph) {
     FluidSums sums;
     std::memcpy(&sums, s.sums.data(), sizeof sums);
     if (sums.nearSolids > n) return Error{ErrorKind::Failed, "reading the state back: its counts make no sense"};
-    s.nearSolids = records<NearSolids>(bytes, sums.nearSolids);
+    const uint32_t quads = nearSolidQuads(fluid_.setup.params.solidCount);
+    s.nearSolids = gatherNearSolids(records<uint32_t>(bytes, size_t{4} * quads * sums.nearSolids), quads);
     // Theirs is the order in which threads met, which no bit depends on; a file should not, either.
     std::ranges::sort(s.nearSolids, {}, &NearSolids::particle);
   } else if (part == slotOf(FluidArray::ListHead)) {

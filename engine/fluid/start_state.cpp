@@ -10,6 +10,7 @@
 #include "fluid/flows.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "fluid/fluids.hpp"
+#include "fluid/near_solids.hpp"
 #include "fluid/neighbor_list.hpp"
 #include "fluid/sleep.hpp"
 #include "fluid/snapshot.hpp"
@@ -17,14 +18,6 @@
 
 namespace rill {
 namespace {
-
-/// Which solids are near which particles. Before the first list of neighbors any solid may be near any particle.
-std::vector<NearSolids> firstNearSolids(const FluidSnapshot& s) {
-  if (!s.nearSolids.empty() || hasNeighbors(s)) return s.nearSolids;
-  std::vector<NearSolids> all(s.id.size());
-  for (uint32_t i = 0; i < all.size(); ++i) all[i] = {.particle = i, .solids = {uint16_t{kAllSolids}}};
-  return all;
-}
 
 /// w of a prediction without a push by solids (shaders/fluid/fluids.glsl).
 float taggedFluid(uint8_t fluid) {
@@ -247,8 +240,8 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
       staging_->add(slotOf(row.id), array.data(), array.size() * sizeof array[0]);
   });
   if (setup.params.solidCount > 0) {
-    std::vector<NearSolids> near = firstNearSolids(s);
-    const uint64_t bytes = near.size() * sizeof near[0];
+    std::vector<uint32_t> near = layOutNearSolids(firstNearSolids(s), nearSolidQuads(setup.params.solidCount));
+    const uint64_t bytes = near.size() * 4;
     staging_->add(slotOf(FluidArray::NearSolids), bytes, bytesOf(std::move(near)));
   }
   if (rowOf(FluidArray::ListHead).length(shape) > 0) {

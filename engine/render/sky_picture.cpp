@@ -21,7 +21,7 @@ constexpr Double3 kSunColor = {1.06, 0.99, 0.94};        // the same, linear RGB
 constexpr Double3 kWavelengths = {0.610, 0.550, 0.465};  // of the channels, micrometers
 constexpr Double3 kGroundAlbedo = {0.115, 0.13, 0.15};   // of scenery_ground.frag, so that the stage has no rim
 
-constexpr double kHaze = 0.02;  // rad below the horizon where the ground has most of the color of the sky over it
+constexpr double kSkyHaze = 0.02;  // rad below the horizon where the ground has most of the color of the sky over it
 
 struct Sky {
   std::string_view name;
@@ -136,7 +136,7 @@ std::optional<EnvironmentPicture> skyPicture(std::string_view name) {
         for (int c = 0; c < 3; ++c) color[c] += part * direct[c];
       } else {
         const Double3& horizon = colors[size_t{rows / 2 - 1} * columns + x];
-        const double hazy = std::exp(std::cos((y + 0.5) / rows * kPi) / kHaze);
+        const double hazy = std::exp(std::cos((y + 0.5) / rows * kPi) / kSkyHaze);
         for (int c = 0; c < 3; ++c) color[c] = std::lerp(kGroundAlbedo[c] * level[c] / kPi, horizon[c], hazy);
       }
       out.texels.push_back(

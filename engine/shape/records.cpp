@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 
 #include "core/overloaded.hpp"
+#include "shared/body_records.h"
 
 namespace rill {
 namespace {
+
+// What shaders/fluid/solid_array.glsl and body_array.glsl rely on.
+constexpr size_t kQuadBytes = 16;
+static_assert(sizeof(SolidRecord) == kSolidQuads * kQuadBytes && offsetof(SolidRecord, body) == 6 * kQuadBytes);
+static_assert(sizeof(BodyRecord) == kBodyQuads * kQuadBytes && offsetof(BodyRecord, mass) == 8 * kQuadBytes &&
+              offsetof(BodyRecord, stiffness) == 9 * kQuadBytes && offsetof(BodyRecord, inverseYZ) == 10 * kQuadBytes);
 
 float f(double value) { return static_cast<float>(value); }
 

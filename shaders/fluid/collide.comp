@@ -11,22 +11,25 @@ layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
-layout(std430, binding = 6) readonly buffer NearSolidsBlock { uvec4 nearSolids[]; };  // NearSolidRecord
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
-layout(std430, binding = 8) readonly buffer SolidBlock { SolidRecord solids[]; };
 #include "shared/arrays.glsl"
+READ_UINT4(6, nearSolids)  // NearSolidRecord
+READ_UINT4(8, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 READ_UINT(13, meshWord)
 layout(std430, binding = 14) buffer SolidSumsBlock { uint solidSums[]; };
+#include "fluid/near_solids.glsl"
 #include "shared/pose.glsl"
-#include "fluid/solid_sums.glsl"
-layout(std430, binding = 15) readonly buffer BodyBlock { BodyRecord bodies[]; };
+#include "fluid/solid_reaction.glsl"
+READ_UINT4(15, bodies)  // BodyRecord
+#include "fluid/body_array.glsl"
 #include "fluid/bodies.glsl"
 
 // The part of a change of a particle's velocity along `direction` that a solid takes the reaction of in one substep: bodies are split
 // between all particles around them (docs/notes/bodies.md). 1 for others.
-float shareOf(uint k, vec3 x, vec3 direction) {
-  if (!BODIES || solids[k].body == kNoBody) return 1.0;
-  BodyRecord b = bodies[solids[k].body];
+float shareOf(uint body, vec3 x, vec3 direction) {
+  if (!BODIES || body == kNoBody) return 1.0;
+  BodyRecord b = bodyAt(body);
   if (b.held != 0u) return 1.0;
   return 1.0 / (1.0 + 2.0 * params.spacing * sqrt(mobility(b, x, direction)) * b.stiffness);  // beside it |grad B| is about 1 / (2 d)
 }
@@ -34,16 +37,35 @@ float shareOf(uint k, vec3 x, vec3 direction) {
 bool countsPushes = false;  // whether what pushes a center changes its velocity
 float ownInverseMass;
 vec3 rejected = vec3(0.0);  // the part of that, m, which changes no velocity
-void pushedBy(uint k, vec3 x, vec3 normal, vec3 by) {
+void pushedBy(uint k, SolidRecord s, vec3 x, vec3 normal, vec3 by) {
   if (!countsPushes) return;
   if (BODIES) {
-    float share = shareOf(k, x, normal);
+    float share = shareOf(s.body, x, normal);
     rejected += (1.0 - share) * by;
     by *= share;
   }
-  if (LOADS) addToSolid(k, by / ownInverseMass, x);
+  if (LOADS) addToSolid(k, centerOf(s.pose), by / ownInverseMass, x);
 }
-#define PUSHED(k, x, normal, by) pushedBy(k, x, normal, by)
+#define PUSHED(k, solid, x, normal, by) pushedBy(k, solid, x, normal, by)
+
+// Of the solids near a particle few are beside it in a substep. CPU drivers execute all of a loop's body in each iteration, so a short
+// loop finds those first, but for few.
+vec3 start;
+uint beside = NEAR_QUADS > 1u ? 0u : 0xffffffffu;  // of the first 32
+void findBeside(NearSolids near, vec3 x) {
+  start = x;
+  float reach = 1.1 * params.margin + 2.0 * params.spacing + control.solidSpeed * ahead();
+  for (uint m = 0u, k; NEAR_QUADS > 1u && !near.all && nextSolid(near, m, k); ++m)
+    if (!isBeyond(centerOf(solidAt(k).pose), solidAt(k).radius, x, reach)) beside |= 1u << m;
+}
+
+// With the solids to visit for a particle at x alone: up to a spacing from the start those that were found.
+NearSolids besides(NearSolids near, vec3 x) {
+  vec3 apart = x - start;
+  near.mask = dot(apart, apart) < params.spacing * params.spacing ? beside : 0xffffffffu;
+  return near;
+}
+#define MOVED(near, x) near = besides(near, x)
 #include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
@@ -51,41 +73,45 @@ layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 12) readonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
 
 // The listed solid nearest to x, which pushed its prediction, and the direction. Bodies push no prediction.
-uint nearestSolid(uvec3 near, vec3 x, out vec3 direction) {
+uint nearestSolid(NearSolids near, vec3 x, out vec3 center, out vec3 direction) {
   uint nearest = kNoSolid;
   float least = 3.0e38;
-  direction = vec3(0.0);
+  center = direction = vec3(0.0);
   for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
-    if (BODIES && solids[k].body != kNoBody) continue;
+    SolidRecord s = solidAt(k);
+    if (BODIES && s.body != kNoBody) continue;
     vec3 normal;
-    float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
+    float distance = surfaceDistance(s.shape, localPoint(s.pose, x), normal);
     if (distance >= least) continue;
     least = distance;
     nearest = k;
-    direction = toScene(solids[k].pose, normal);
+    center = centerOf(s.pose);
+    direction = toScene(s.pose, normal);
   }
   return nearest;
 }
 
-void predict(uint i, uvec3 near, vec3 x, vec3 v, uint fluid) {
+void predict(uint i, NearSolids near, vec3 x, vec3 v, uint fluid) {
   if (FORCES) return;  // predict.comp, after them
   float pushed;
-  vec3 next = outside(predicted(x, v, keptWarmAcceleration(warmAcceleration[i])), near, ahead(), pushed);
+  vec3 planned = predicted(x, v, keptWarmAcceleration(warmAcceleration[i]));
+  vec3 next = outside(planned, besides(near, planned), ahead(), pushed);
   prediction[i] = vec4(next, withFluid(pushed, fluid));
 }
 
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
-  uint i = nearSolids[n].x;
-  uvec3 near = nearSolids[n].yzw;
+  NearSolids near = nearSolidsOf(n);
+  uint i = near.particle;
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
   uint fluid = fluidOfPosition(position[i]);
   ownInverseMass = inverseMassOf(fluid);
   float pushed;
   countsPushes = control.phase == kPhaseAdvancing;
-  vec3 x = outside(from, near, 0.0, pushed);
+  findBeside(near, from);
+  vec3 x = outside(from, besides(near, from), 0.0, pushed);
   countsPushes = false;
   if (control.phase != kPhaseAdvancing) {
     position[i] = vec4(x, storedFluid(fluid));
@@ -101,35 +127,37 @@ void main() {
   float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
   vec3 given = ownInverseMass * multiplier * nearDisplaced[i].xyz / control.step + gained;
   if (LOADS && freeVelocity[i].w > 0.0) {
-    vec3 direction, at = uintBitsToFloat(work[i].xyz);
-    uint pushing = nearestSolid(near, at, direction);
-    if (pushing != kNoSolid) addToSolid(pushing, freeVelocity[i].w / ownInverseMass * direction, at);
+    vec3 center, direction, at = uintBitsToFloat(work[i].xyz);
+    uint pushing = nearestSolid(besides(near, at), at, center, direction);
+    if (pushing != kNoSolid) addToSolid(pushing, center, freeVelocity[i].w / ownInverseMass * direction, at);
   }
-  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
-    if (solids[k].friction <= 0.0 && solids[k].restitution <= 0.0) continue;
-    if (isBeyond(centerOf(solids[k].pose), solids[k].radius, x, 1.1 * params.margin + params.spacing)) continue;
+  NearSolids touched = besides(near, x);
+  for (uint m = 0u, k; nextSolid(touched, m, k); ++m) {
+    SolidRecord s = solidAt(k);
+    if (s.friction <= 0.0 && s.restitution <= 0.0) continue;
+    if (isBeyond(centerOf(s.pose), s.radius, x, 1.1 * params.margin + params.spacing)) continue;
     vec3 normal;
-    if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal) > 1.1 * params.margin) continue;
-    normal = toScene(solids[k].pose, normal);
-    vec3 moving = velocityAt(solids[k].pose, x);
+    if (surfaceDistance(s.shape, localPoint(s.pose, x), normal) > 1.1 * params.margin) continue;
+    normal = toScene(s.pose, normal);
+    vec3 moving = velocityAt(s.pose, x);
     float before = dot(freeVelocity[i].xyz - moving, normal);
     vec3 relative = v - moving;
     float away = dot(relative, normal);
     vec3 along = relative - away * normal;
-    float predicted_ = BODIES && solids[k].body != kNoBody ? 0.0 : freeVelocity[i].w / control.step;
+    float predicted_ = BODIES && s.body != kNoBody ? 0.0 : freeVelocity[i].w / control.step;
     float impulse = max(0.0, dot(given, normal) + predicted_);
-    if (before < 0.0 && solids[k].restitution > 0.0 && away < -solids[k].restitution * before) {
-      float bounce = -solids[k].restitution * before - away;
-      if (BODIES) bounce *= shareOf(k, x, normal);
+    if (before < 0.0 && s.restitution > 0.0 && away < -s.restitution * before) {
+      float bounce = -s.restitution * before - away;
+      if (BODIES) bounce *= shareOf(s.body, x, normal);
       impulse += bounce;
-      away = BODIES ? away + bounce : -solids[k].restitution * before;
+      away = BODIES ? away + bounce : -s.restitution * before;
     }
     float slip = length(along);
-    float stopped = slip > 0.0 ? min(1.0, solids[k].friction * impulse / slip) : 0.0;
-    if (BODIES && slip > 0.0) stopped *= shareOf(k, x, along / slip);
+    float stopped = slip > 0.0 ? min(1.0, s.friction * impulse / slip) : 0.0;
+    if (BODIES && slip > 0.0) stopped *= shareOf(s.body, x, along / slip);
     along *= 1.0 - stopped;
     vec3 after = moving + along + away * normal;
-    if (LOADS) addToSolid(k, control.step / ownInverseMass * (after - v), x);
+    if (LOADS) addToSolid(k, centerOf(s.pose), control.step / ownInverseMass * (after - v), x);
     v = after;
   }
   v *= min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));

@@ -9,7 +9,8 @@ READ_UINT(9, meshWord)
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(std430, binding = 2) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT4(2, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 layout(std430, binding = 3) buffer BodyBlock { BodyRecord bodies[]; };
 layout(std430, binding = 4) readonly buffer TouchedBlock { TouchedRecord touched[]; };
 layout(std430, binding = 5) readonly buffer ContactPointBlock { ContactPointRecord contactPoints[]; };
@@ -18,7 +19,7 @@ layout(std430, binding = 7) buffer SlipBlock { SlipRecord slips[]; };
 layout(std430, binding = 8) buffer ContactCandidateBlock { uint contactCandidates[]; };
 layout(push_constant) uniform Push { ContactPush push; };
 #include "fluid/bodies.glsl"
-#include "fluid/solid_sums.glsl"
+#include "fluid/solid_reaction.glsl"
 
 // What a body touches. A wall, or a solid that is held or moves by itself, has no body.
 struct Partner {
@@ -30,16 +31,17 @@ struct Partner {
 };
 
 Partner partnerOf(uint k, vec3 at) {
-  PoseRecord pose = solids[k].pose;
+  SolidRecord solid = solidAt(k);
+  PoseRecord pose = solid.pose;
   vec3 velocity = velocityAt(pose, at), before = velocity;
-  uint n = solids[k].body;
+  uint n = solid.body;
   if (n != kNoBody && bodies[n].held != 0u) n = kNoBody;
   if (n != kNoBody) {
     PoseRecord s = bodies[n].state;
     bool advances = control.nextPhase == kPhaseAdvancing;
     before = advances ? velocityOf(s) + cross(angularVelocity(s), at - centerOf(bodies[n].predicted)) : vec3(0.0);
   }
-  return Partner(k + 1u, n, solids[k].friction, solids[k].restitution, bodyStep() * velocity, before);
+  return Partner(k + 1u, n, solid.friction, solid.restitution, bodyStep() * velocity, before);
 }
 
 vec3 tangential(vec3 v, vec3 normal) { return v - dot(v, normal) * normal; }
@@ -54,7 +56,7 @@ float compliance(Partner p, vec3 at, vec3 direction) {
 
 // In units of the body's own mass, so that no other body decides how it is rounded.
 void addImpulse(Partner p, vec3 impulse, vec3 at) {
-  if (p.body != kNoBody) addToSolid(bodies[p.body].solid, impulse / bodies[p.body].mass, at);
+  if (p.body != kNoBody) addToSolid(bodies[p.body].solid, centerOf(solidAt(bodies[p.body].solid).pose), impulse / bodies[p.body].mass, at);
 }
 
 SlipRecord slip;                                          // of the point
@@ -128,7 +130,7 @@ void main() {
   ContactPointRecord point = contactPoints[n];
   slip = slips[n];
   uint own = bodies[body].solid;
-  PoseRecord pose = solids[own].pose;
+  PoseRecord pose = solidAt(own).pose;
   vec3 center = centerOf(pose) + toScene(pose, vec3(point.x, point.y, point.z));
   float margin = COUNTS ? contactMargin() : 0.0;
   for (uint side = 0u; side < 6u && (candidates & kMayTouchWalls) != 0u; ++side) {
@@ -145,12 +147,13 @@ void main() {
   }
   for (uint left = candidates & ~kMayTouchWalls; left != 0u; left &= left - 1u) {
     uint m = uint(findLSB(left)), k = touched[body].solids[m];
-    if (isBeyond(centerOf(solids[k].pose), solids[k].radius, center, point.radius + params.spacing)) continue;
+    SolidRecord s = solidAt(k);
+    if (isBeyond(centerOf(s.pose), s.radius, center, point.radius + params.spacing)) continue;
     vec3 normal;
-    float depth = point.radius - surfaceDistance(solids[k].shape, localPoint(solids[k].pose, center), normal);
+    float depth = point.radius - surfaceDistance(s.shape, localPoint(s.pose, center), normal);
     if (depth <= -margin) continue;
     found |= 1u << m;
-    normal = toScene(solids[k].pose, normal);
+    normal = toScene(s.pose, normal);
     vec3 at = center - point.radius * normal;
     touch(partnerOf(own, at), partnerOf(k, at), at, normal, depth);
   }

@@ -1,5 +1,5 @@
 // Which solids may be near the particles of a workgroup: those whose bounding spheres reach the box around them. With CULL_SOLIDS, which
-// scenes of many solids have; else every solid may. Needs `params` and the storage array `solids`.
+// scenes of many solids have; else every solid may. Needs `params` and solidAt().
 #ifndef RILL_CULL_SOLIDS_GLSL
 #define RILL_CULL_SOLIDS_GLSL
 #include "shared/ordered_floats.glsl"
@@ -28,8 +28,9 @@ void cullSolids(vec3 x, bool counts) {
   vec3 from = fromOrdered(uvec3(groupLow[0], groupLow[1], groupLow[2])), to = fromOrdered(uvec3(groupHigh[0], groupHigh[1], groupHigh[2]));
   bool some = groupHigh[0] != 0u;
   for (uint k = lane; some && k < params.solidCount; k += kFluidGroup) {
-    vec3 middle = centerOf(solids[k].pose) + toScene(solids[k].pose, middleOf(solids[k].shape));
-    float radius = solids[k].shape.kind == kShapeSphere ? solids[k].shape.halfX : length(halfExtents(solids[k].shape));
+    SolidRecord s = solidAt(k);
+    vec3 middle = centerOf(s.pose) + toScene(s.pose, middleOf(s.shape));
+    float radius = s.shape.kind == kShapeSphere ? s.shape.halfX : length(halfExtents(s.shape));
     radius += params.nearLimit + params.spacing;  // a sheet is thicker than its bounds, and rounding
     if (distance(middle, clamp(middle, from, to)) < radius) atomicOr(groupSolids[k / 32u], 1u << k % 32u);
   }

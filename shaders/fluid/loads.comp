@@ -13,44 +13,45 @@ READ_UINT(9, meshWord)
 #define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
+READ_UINT4(3, nearSolids)  // NearSolidRecord
 #include "fluid/near_solids.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 READ_UINT4(2, work)        // the prediction that the density is of
-READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)
-layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT4(6, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 READ_UINT2(7, nearMultipliers)  // two floats
 layout(std430, binding = 8) buffer SolidSumsBlock { uint solidSums[]; };
 #include "fluid/solid_density.glsl"
-#include "fluid/solid_sums.glsl"
+#include "fluid/solid_reaction.glsl"
 
 // Sums of a solid: of the solve in the first components, of the warm start in the others.
 struct Reaction {
   float units[2u * kLoadComponents];
 };
 
-void add(inout Reaction r, uint k, vec3 solve, vec3 warm, vec3 at) {
+void add(inout Reaction r, vec3 center, vec3 solve, vec3 warm, vec3 at) {
   float one[kLoadComponents], other[kLoadComponents];
-  toUnits(k, solve, at, one);
-  toUnits(k, warm, at, other);
+  toUnits(center, solve, at, one);
+  toUnits(center, warm, at, other);
   for (uint c = 0u; c < kLoadComponents; ++c) {
     r.units[c] += one[c];
     r.units[c + kLoadComponents] += other[c];
   }
 }
 
-// What solid k gives a particle at x, whose multipliers are those of the solve and of the warm start.
-void addSolid(inout Reaction r, uint k, vec3 x, vec2 multipliers) {
+// What a solid gives a particle at x, whose multipliers are those of the solve and of the warm start.
+void addSolid(inout Reaction r, SolidRecord s, vec3 x, vec2 multipliers) {
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
-    vec3 gradient = solidSample(solids[k], image).xyz;
+    vec3 gradient = solidSample(s, image).xyz;
     if (gradient != vec3(0.0)) {
-      gradient *= shareOfImage(solids[k], image);
-      add(r, k, multipliers.x * gradient, multipliers.y * gradient, image);
+      gradient *= shareOfImage(s, image);
+      add(r, centerOf(s.pose), multipliers.x * gradient, multipliers.y * gradient, image);
     }
     more = advance(images);
   } LOOP_END(more);
@@ -79,20 +80,20 @@ void main() {
   if (control.phase == kPhaseSettling) return;  // by all: nothing moves in time
   uint n = flatInvocation();
   bool inRange = n < sums.nearSolids;
-  uvec4 near = nearSolidsAt(inRange ? n : 0u);
-  uint i = near.x;
+  NearSolids near = nearSolidsOf(inRange ? n : 0u);
+  uint i = near.particle;
   vec3 x = uintBitsToFloat(workAt(i).xyz);
   vec2 multipliers = uintBitsToFloat(nearMultipliersAt(i));
   if (control.phase != kPhaseAdvancing) multipliers.x = 0.0;
 
   uint m = 0u, k = 0u;
-  bool more = inRange && isActive(x) && nextSolid(near.yzw, m, k);
+  bool more = inRange && isActive(x) && nextSolid(near, m, k);
   LOOP_WHILE (subgroupAny(more)) {
     Reaction r;
     for (uint c = 0u; c < 2u * kLoadComponents; ++c) r.units[c] = 0.0;
-    if (more) addSolid(r, k, x, multipliers);
+    if (more) addSolid(r, solidAt(k), x, multipliers);
     addToSums(k, r, more);
     ++m;
-    more = more && nextSolid(near.yzw, m, k);
+    more = more && nextSolid(near, m, k);
   } LOOP_END(subgroupAny(more));
 }

@@ -13,21 +13,23 @@ READ_UINT4(2, work)        // the prediction of the substep
 READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)
-layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT4(6, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 layout(std430, binding = 8) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
 READ_FLOAT4(10, priorVelocity)
 #include "fluid/no_slip.glsl"
-#include "fluid/solid_sums.glsl"
+#include "fluid/solid_reaction.glsl"
 
-void addReactions(uvec3 near, vec3 x, vec3 v, uint fluid, float mobile) {
+void addReactions(NearSolids near, vec3 x, vec3 v, uint fluid, float mobile) {
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
-      vec3 toward = velocityAt(solids[k].pose, image) - imageVelocity(signs, v);
-      addToSolid(k, control.step / inverseMassOf(fluid) * adhesion(k, image, mobile) * toward, image);
+      SolidRecord s = solidAt(k);
+      vec3 toward = velocityAt(s.pose, image) - imageVelocity(signs, v);
+      addToSolid(k, centerOf(s.pose), control.step / inverseMassOf(fluid) * adhesion(s, image, mobile) * toward, image);
     }
     more = advance(images);
   } LOOP_END(more);
@@ -36,16 +38,16 @@ void addReactions(uvec3 near, vec3 x, vec3 v, uint fluid, float mobile) {
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
-  uvec4 near = nearSolidsAt(n);
-  uvec4 particle = workAt(near.x);
+  NearSolids near = nearSolidsOf(n);
+  uvec4 particle = workAt(near.particle);
   uint fluid = fluidOfWork(particle);
-  float mobile = mobility(near.x, fluid);
+  float mobile = mobility(near.particle, fluid);
   vec3 x = uintBitsToFloat(particle.xyz);
   if (!isActive(x)) return;
-  vec3 v = velocity[near.x].xyz;
+  vec3 v = velocity[near.particle].xyz;
   if (BODIES) {
-    Adhesion a = adhesionAt(near.yzw, x, mobile, true);
-    if (a.all > 0.0) velocity[near.x].xyz = v = (v + a.pull) / (1.0 + a.all);
+    Adhesion a = adhesionAt(near, x, mobile, true);
+    if (a.all > 0.0) velocity[near.particle].xyz = v = (v + a.pull) / (1.0 + a.all);
   }
-  if (LOADS) addReactions(near.yzw, x, v, fluid, mobile);
+  if (LOADS) addReactions(near, x, v, fluid, mobile);
 }

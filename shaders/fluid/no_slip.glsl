@@ -16,13 +16,13 @@ float mobility(uint i, uint fluid) {
   return inverseMassOf(fluid) * (SHEAR_VISCOSITY && i < control.solved ? priorVelocityAt(i).w : viscosityOf(fluid));
 }
 
-// The coefficient of solid k at x, an image of a particle; 0 of a solid that slips.
-float adhesion(uint k, vec3 x, float mobility) {
-  if (solids[k].noSlip == 0u) return 0.0;
-  vec3 normal, gradient = solidSample(solids[k], x).xyz;
+// The coefficient of a solid at x, an image of a particle; 0 of a solid that slips.
+float adhesion(SolidRecord s, vec3 x, float mobility) {
+  if (s.noSlip == 0u) return 0.0;
+  vec3 normal, gradient = solidSample(s, x).xyz;
   if (gradient == vec3(0.0)) return 0.0;
-  gradient *= shareOfImage(solids[k], x);
-  float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
+  gradient *= shareOfImage(s, x);
+  float distance = surfaceDistance(s.shape, localPoint(s.pose, x), normal);
   float rate = mobility * params.viscosityRate;
   return rate * control.step * length(gradient) * line(params.noSlipTable, params.tableNodes, distance).x;
 }
@@ -34,17 +34,18 @@ struct Adhesion {
 };
 
 // Of bodies, or of the other solids.
-Adhesion adhesionAt(uvec3 near, vec3 x, float mobility, bool ofBodies) {
+Adhesion adhesionAt(NearSolids near, vec3 x, float mobility, bool ofBodies) {
   Adhesion sum = Adhesion(0.0, vec3(0.0));
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
-      if ((solids[k].body != kNoBody) != ofBodies) continue;
-      float a = adhesion(k, image, mobility);
+      SolidRecord s = solidAt(k);
+      if ((s.body != kNoBody) != ofBodies) continue;
+      float a = adhesion(s, image, mobility);
       sum.all += a;
-      sum.pull += a * imageVelocity(signs, velocityAt(solids[k].pose, image));
+      sum.pull += a * imageVelocity(signs, velocityAt(s.pose, image));
     }
     more = advance(images);
   } LOOP_END(more);

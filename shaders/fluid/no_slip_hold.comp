@@ -13,7 +13,8 @@ READ_UINT4(2, work)
 READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)
-layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT4(6, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 layout(std430, binding = 8) writeonly buffer HoldBlock { vec4 hold[]; };
 READ_FLOAT4(9, priorVelocity)
 #include "fluid/no_slip.glsl"
@@ -21,10 +22,10 @@ READ_FLOAT4(9, priorVelocity)
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
-  uvec4 near = nearSolidsAt(n);
-  uvec4 particle = workAt(near.x);
+  NearSolids near = nearSolidsOf(n);
+  uvec4 particle = workAt(near.particle);
   vec3 x = uintBitsToFloat(particle.xyz);
   Adhesion a = Adhesion(0.0, vec3(0.0));
-  if (isActive(x)) a = adhesionAt(near.yzw, x, mobility(near.x, fluidOfWork(particle)), false);
-  hold[near.x] = vec4(a.pull, a.all);
+  if (isActive(x)) a = adhesionAt(near, x, mobility(near.particle, fluidOfWork(particle)), false);
+  hold[near.particle] = vec4(a.pull, a.all);
 }

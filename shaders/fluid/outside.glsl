@@ -1,4 +1,4 @@
-// Projects centers out of solids. Needs `params`, the storage array `solids` and meshWordAt().
+// Projects centers out of solids. Needs `params`, solidsAt(), nearSolidsAt() and meshWordAt().
 #ifndef RILL_OUTSIDE_GLSL
 #define RILL_OUTSIDE_GLSL
 #define MESH_WORDS
@@ -6,26 +6,29 @@
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
-// PUSHED(k, x, normal, by), if defined, is called where solid k moves a center from x.
+// PUSHED(k, solid, x, normal, by), if defined, is called where a solid moves a center from x, MOVED(near, x) after that.
 #ifndef PUSHED
-#define PUSHED(k, x, normal, by)
+#define PUSHED(k, solid, x, normal, by)
+#define MOVED(near, x)
 #endif
 
 // Moves a center out of the solids `near` it, where each will be `ahead` seconds from now, walls last.
 // `pushed`: m that solids moved it.
-vec3 outside(vec3 x, uvec3 near, float ahead, out float pushed) {
+vec3 outside(vec3 x, NearSolids near, float ahead, out float pushed) {
   pushed = 0.0;
   for (uint n = 0u, k; nextSolid(near, n, k); ++n) {
-    if (BODIES && ahead > 0.0 && solids[k].body != kNoBody) continue;  // the density that a body displaces is enough
-    vec3 center = centerOf(solids[k].pose) + ahead * velocityOf(solids[k].pose);
-    if (isBeyond(center, solids[k].radius, x, params.margin + params.spacing)) continue;  // a sheet is thicker than its bounds
-    PoseRecord pose = later(solids[k].pose, ahead);
+    SolidRecord s = solidAt(k);
+    if (BODIES && ahead > 0.0 && s.body != kNoBody) continue;  // the density that a body displaces is enough
+    vec3 center = centerOf(s.pose) + ahead * velocityOf(s.pose);
+    if (isBeyond(center, s.radius, x, params.margin + params.spacing)) continue;  // a sheet is thicker than its bounds
+    PoseRecord pose = later(s.pose, ahead);
     vec3 normal;
-    float distance = surfaceDistance(solids[k].shape, localPoint(pose, x), normal);
+    float distance = surfaceDistance(s.shape, localPoint(pose, x), normal);
     if (distance < params.margin) {
       vec3 outward = toScene(pose, normal), by = outward * (params.margin - distance);
-      PUSHED(k, x, outward, by);
+      PUSHED(k, s, x, outward, by);
       x += by;
+      MOVED(near, x);
       pushed += params.margin - distance;
     }
   }

@@ -48,7 +48,7 @@ void reflectSums(vec3 signs) {
 
 void main() {
   uint n = clusterInvocation();
-  uint i = nearSolidsAt(min(n, max(sums.nearSolids, 1u) - 1u)).x;
+  uint i = nearSolidsAt(NEAR_QUADS * min(n, max(sums.nearSolids, 1u) - 1u)).x;
   bool inRange = n < sums.nearSolids && i >= push.first && i < min(push.last, control.solved);
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);

@@ -10,8 +10,9 @@ READ_FLOAT4(2, position)
 READ_FLOAT4(3, velocity)
 READ_FLOAT4(4, warmAcceleration)
 layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]; };
-layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
-layout(std430, binding = 7) readonly buffer NearSolidsBlock { uvec4 nearSolids[]; };  // NearSolidRecord
+READ_UINT4(6, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
+READ_UINT4(7, nearSolids)  // NearSolidRecord
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 READ_UINT(9, meshWord)
 READ_UINT(10, listHead)
@@ -21,8 +22,8 @@ layout(local_size_x = kFluidGroup) in;
 void main() {
   uint i = flatInvocation();
   if (i >= (NEAR_SOLIDS ? sums.nearSolids : control.solved)) return;
-  uvec3 near = NEAR_SOLIDS ? nearSolids[i].yzw : kNothingNear;
-  if (NEAR_SOLIDS) i = nearSolids[i].x;
+  NearSolids near = nearSolidsOf(NEAR_SOLIDS ? i : 0u);
+  if (NEAR_SOLIDS) i = near.particle;
   if (REGIONS && (listHeadAt(i) & kAsleepBit) != 0u) return;
   vec4 present = positionAt(i);
   vec3 x = present.xyz;

@@ -1,5 +1,4 @@
-// The sums of solids (shared/solid_loads.h): adds what solids displace particles by, and takes the sums. Needs `params`, shared/pose.glsl,
-// and the storage arrays `solids` and `solidSums`.
+// The sums of solids (shared/solid_loads.h): adds to them, and takes them. Needs `params` and the storage array `solidSums`.
 #ifndef RILL_SOLID_SUMS_GLSL
 #define RILL_SOLID_SUMS_GLSL
 #include "shared/solid_loads.h"
@@ -20,16 +19,6 @@ void split(float units, out int high, out uint low) {
   low = uint(whole - upper * 16777216.0);
 }
 
-// Of a displacement (m) that solid k gives a particle, whose reaction acts at `at`, as units of the six components.
-void toUnits(uint k, vec3 displacement, vec3 at, out float units[kLoadComponents]) {
-  vec3 linear = displacement / (params.spacing * kDisplacementUnits);
-  vec3 angular = cross(at - centerOf(solids[k].pose), linear) / params.loadLever;
-  for (int a = 0; a < 3; ++a) {
-    units[a] = linear[a];
-    units[a + 3] = angular[a];
-  }
-}
-
 // The sum at `word`, in units; it begins anew.
 float takeSum(uint word) {
   uint low = solidSums[word], high = solidSums[word + 1u];
@@ -48,17 +37,5 @@ float takeSum(uint word) {
 float toDisplacement(uint component, float units) {
   float displacement = units * kDisplacementUnits * params.spacing;
   return component < 3u ? displacement : displacement * params.loadLever;
-}
-
-void addToSolid(uint k, vec3 displacement, vec3 at) {
-  if (displacement == vec3(0.0)) return;
-  float units[kLoadComponents];
-  toUnits(k, displacement, at, units);
-  for (uint c = 0u; c < kLoadComponents; ++c) {
-    int high;
-    uint low;
-    split(units[c], high, low);
-    addWide(k * kSolidSumWords + kSolveSums + 2u * c, high, low);
-  }
 }
 #endif

@@ -10,21 +10,23 @@ READ_UINT(9, meshWord)
 #define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
+READ_UINT4(3, nearSolids)  // NearSolidRecord
 #include "fluid/near_solids.glsl"
 #include "fluid/solid_coverage.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { DisplacePush push; };
 READ_FLOAT4(2, place)
-READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)  // value and slope of a node, and of the next one
-layout(std430, binding = 6) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT4(6, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 layout(std430, binding = 7) writeonly buffer DisplacedBlock { vec4 nearDisplaced[]; };
 layout(std430, binding = 8) writeonly buffer TangentialBlock { vec4 nearTangential[]; };
 
 #include "fluid/solid_density.glsl"
-layout(std430, binding = 10) readonly buffer BodyBlock { BodyRecord bodies[]; };
+READ_UINT4(10, bodies)  // BodyRecord
+#include "fluid/body_array.glsl"
 layout(std430, binding = 11) writeonly buffer StiffnessBlock { float nearStiffness[]; };
 layout(std430, binding = 12) buffer SolidSumsBlock { uint solidSums[]; };
 #include "fluid/bodies.glsl"
@@ -32,9 +34,9 @@ layout(std430, binding = 12) buffer SolidSumsBlock { uint solidSums[]; };
 
 // What a body adds to D of a particle at x, where it displaces `gradient`: see docs/notes/bodies.md. Adds the particle to the sum that the
 // next substep takes.
-float stiffnessOf(uint k, vec3 gradient, vec3 x) {
-  if (solids[k].body == kNoBody) return 0.0;
-  BodyRecord b = bodies[solids[k].body];
+float stiffnessOf(uint k, uint body, vec3 gradient, vec3 x) {
+  if (body == kNoBody) return 0.0;
+  BodyRecord b = bodyAt(body);
   float root = sqrt(mobility(b, x, gradient));
   int high;
   uint low;
@@ -46,8 +48,8 @@ float stiffnessOf(uint k, vec3 gradient, vec3 x) {
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
-  uvec4 near = nearSolidsAt(n);
-  uint i = near.x;
+  NearSolids near = nearSolidsOf(n);
+  uint i = near.particle;
   vec3 x = placeAt(i).xyz;
   SolidCoverage coverage = SolidCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = vec4(0.0);
@@ -56,11 +58,12 @@ void main() {
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
-    for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
-      vec4 solid = solidSample(solids[k], image);
+    for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+      SolidRecord s = solidAt(k);
+      vec4 solid = solidSample(s, image);
       if (solid == vec4(0.0)) continue;
-      solid *= shareOfImage(solids[k], image);
-      if (BODIES) stiffness += stiffnessOf(k, solid.xyz, image);
+      solid *= shareOfImage(s, image);
+      if (BODIES) stiffness += stiffnessOf(k, s.body, solid.xyz, image);
       solid.xyz *= signs;
       displaced += solid;
       cover(coverage, solid.w, solid.xyz);

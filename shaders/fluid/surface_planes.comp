@@ -5,27 +5,29 @@
 #include "shared/arrays.glsl"
 READ_UINT(7, meshWord)
 #define MESH_WORDS
+READ_UINT4(3, nearSolids)  // NearSolidRecord
 #include "fluid/near_solids.glsl"
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 READ_FLOAT4(2, position)
-READ_UINT4(3, nearSolids)  // NearSolidRecord
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
-layout(std430, binding = 5) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT4(5, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 layout(std430, binding = 6) writeonly buffer PlaneBlock { vec4 solidPlane[]; };  // xyz: away from the solid, w: distance in m
 
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
-  uvec4 near = nearSolidsAt(n);
-  vec3 x = positionAt(near.x).xyz;
+  NearSolids near = nearSolidsOf(n);
+  vec3 x = positionAt(near.particle).xyz;
   vec4 plane = vec4(0.0, 1.0, 0.0, kNoWall);
-  for (uint m = 0u, k; nextSolid(near.yzw, m, k); ++m) {
+  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+    SolidRecord s = solidAt(k);
     vec3 normal;
-    float distance = surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal);
-    if (distance < plane.w) plane = vec4(toScene(solids[k].pose, normal), distance);
+    float distance = surfaceDistance(s.shape, localPoint(s.pose, x), normal);
+    if (distance < plane.w) plane = vec4(toScene(s.pose, normal), distance);
   }
-  solidPlane[near.x] = plane;
+  solidPlane[near.particle] = plane;
 }

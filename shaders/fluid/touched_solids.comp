@@ -8,7 +8,8 @@ READ_UINT(6, meshWord)
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 layout(local_size_x = kFluidGroup) in;
-layout(std430, binding = 2) readonly buffer SolidBlock { SolidRecord solids[]; };
+READ_UINT4(2, solids)  // SolidRecord
+#include "fluid/solid_array.glsl"
 layout(std430, binding = 3) buffer BodyBlock { BodyRecord bodies[]; };
 layout(std430, binding = 4) writeonly buffer TouchedBlock { TouchedRecord touched[]; };
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
@@ -26,7 +27,8 @@ void main() {
   // First by bounding spheres: CPU drivers execute all of a loop's body for every solid.
   uint near[kMaxNear], nearCount = 0u;
   for (uint k = 0u; k < params.solidCount; ++k) {
-    bool beyond = isBeyond(centerOf(solids[k].pose), solids[k].radius, middle, reach + params.spacing);  // as in outside.glsl
+    SolidRecord s = solidAt(k);
+    bool beyond = isBeyond(centerOf(s.pose), s.radius, middle, reach + params.spacing);  // as in outside.glsl
     if (k == own || beyond) continue;
     if (nearCount < kMaxNear)
       near[nearCount++] = k;
@@ -35,8 +37,9 @@ void main() {
   }
   for (uint m = 0u; m < nearCount; ++m) {
     uint k = near[m];
+    SolidRecord s = solidAt(k);
     vec3 normal;
-    if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, middle), normal) > reach) continue;
+    if (surfaceDistance(s.shape, localPoint(s.pose, middle), normal) > reach) continue;
     if (count < kMaxTouched)
       touched[n].solids[count++] = k;
     else

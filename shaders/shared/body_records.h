@@ -5,23 +5,26 @@
 #include "shared/solid_records.h"
 RILL_RECORDS_BEGIN
 
+// Where only some of it is read it is read four words at a time (fluid/body_array.glsl).
 struct BodyRecord {
   PoseRecord state;                        // of its center of mass, at the end of the last substep
   PoseRecord predicted;                    // in the present substep
   float offsetX, offsetY, offsetZ;         // m, of the center of mass, in the solid's frame
-  float mass;                              // kg
-  float inertiaXX, inertiaYY, inertiaZZ, inertiaYZ, inertiaZX, inertiaXY;  // kg m^2, about the center of mass, in the solid's frame
-  uint solid;
-  uint locked;                             // degrees of freedom: bits x y z rx ry rz
+  float radius;                            // m, of the sphere around the center of mass that holds it
   float from;                              // s, held until then
+  uint contacts;                           // of the present substep
+  float mass;                              // kg
+  uint locked;                             // degrees of freedom: bits x y z rx ry rz
   uint held;                               // 1: in the present substep
   uint stopped;                            // 1: for good, since its motion left the range of numbers
-  float radius;                            // m, of the sphere around the center of mass that holds it
-  uint contacts;                           // of the present substep
-  float inverseXX, inverseYY, inverseZZ, inverseYZ, inverseZX, inverseXY;  // 1/(kg m^2), of the predicted pose, without locked rotations
   // Sum of m |grad B| / sqrt(w) over the particles near it, kg^1/2 / m: see docs/notes/bodies.md. Of the last substep; FluidParams says m.
   float stiffness;
+  float inverseXX, inverseYY, inverseZZ, inverseYZ, inverseZX, inverseXY;  // 1/(kg m^2), of the predicted pose, without locked rotations
+  uint solid;
+  float inertiaXX, inertiaYY, inertiaZZ, inertiaYZ, inertiaZX, inertiaXY;  // kg m^2, about the center of mass, in the solid's frame
+  float unused[2];
 };
+RILL_CONST uint kBodyQuads = 13u;  // of a BodyRecord, four words each
 
 // A sphere on the surface of a body, whose contacts with walls and other solids are found; see engine/shape/contact_points.hpp.
 struct ContactPointRecord {

@@ -30,31 +30,29 @@ struct KeyframeRecord {
   float unused;
 };
 
-// A solid of the fluid at the end of the present substep.
+// A solid of the fluid at the end of the present substep. Read four words at a time (fluid/solid_array.glsl).
 struct SolidRecord {
   PoseRecord pose;
   ShapeRecord shape;
   float friction, restitution;
   float radius;                // m, of the sphere around the center that holds the shape
-  PoseRecord base;             // before any motion
-  uint firstKey, keyCount;     // entries of the keyframe buffer
-  uint driven;                 // 1: two keyframes, its poses at the begin and at the end of the advance, with seconds since its begin
   uint body;                   // index of its BodyRecord, or kNoBody
+  uint noSlip;                 // 1: viscous fluid sticks to it
   uint tableOffset;            // sphere: entries into the table buffer
   uint tableNodes;
   float tableFirst;            // sphere: signed distance of the table's first node, m
-  uint noSlip;                 // 1: viscous fluid sticks to it
+  uint firstKey, keyCount;     // entries of the keyframe buffer
+  uint driven;                 // 1: two keyframes, its poses at the begin and at the end of the advance, with seconds since its begin
+  PoseRecord base;             // before any motion
+  float unused[3];
 };
+RILL_CONST uint kSolidQuads = 12u;  // of a SolidRecord, four words each
 
 RILL_CONST uint kNoBody = 0xffffffffu;
 
-// A particle near solids, and up to kListedSolids of them by increasing index, two a word, the first in the low half; kNoSolid after the
-// last. kAllSolids as the first: any solid may be near.
-struct NearSolidRecord {
-  uint particle;
-  uint solids01, solids23, solids45;
-};
-RILL_CONST uint kMaxSolids = 4096u, kListedSolids = 6u, kNoSolid = 0xffffu, kAllSolids = 0xfffeu;
+// NearSolidRecord: a particle near solids and these, in NEAR_QUADS times four words. The first word is the particle; the others have two
+// solids each by increasing index, the first in the low half, and kNoSolid after the last. kAllSolids as the first: any solid may be near.
+RILL_CONST uint kMaxSolids = 4096u, kMaxNearQuads = 4u, kListedSolids = 8u * kMaxNearQuads - 2u, kNoSolid = 0xffffu, kAllSolids = 0xfffeu;
 
 RILL_RECORDS_END
 #endif

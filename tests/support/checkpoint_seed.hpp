@@ -61,7 +61,11 @@ inline offline::Checkpoint seedCheckpoint() {
                                                   .advance = 12.5f,
                                                   .advanceTime = 5e-3f,
                                                   .covered = 1});
-  s.nearSolids = {{0, {0, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff}}, {5, {0xfffe}}};
+  for (const auto& [particle, solid] : {std::pair<uint32_t, uint16_t>{0, 0}, {5, 0xfffe}}) {
+    s.nearSolids.push_back({.particle = particle});
+    s.nearSolids.back().solids.fill(0xffff);
+    s.nearSolids.back().solids[0] = solid;
+  }
   s.listCapacity = 4;
   s.neighborCount = {1, 2, 0, 4, 9, 1};
   s.neighbors = {1, 0, 3, 0, 1, 2, 5, 3};
@@ -91,15 +95,15 @@ inline offline::Checkpoint seedCheckpointWithBodies() {
     const PoseRecord state{.centerX = 0.5f, .rotationW = 1, .velocityY = -0.25f, .angularZ = 2};
     const BodyRecord body{.state = state,
                           .predicted = state,
+                          .radius = 0.5f,
+                          .from = 0.5f,
                           .mass = 2,
+                          .locked = k,
+                          .stiffness = 3,
+                          .solid = k,
                           .inertiaXX = 1,
                           .inertiaYY = 1,
-                          .inertiaZZ = 1,
-                          .solid = k,
-                          .locked = k,
-                          .from = 0.5f,
-                          .radius = 0.5f,
-                          .stiffness = 3};
+                          .inertiaZZ = 1};
     const std::vector<uint32_t> words = wordsOfRecord(body);
     s.bodies.insert(s.bodies.end(), words.begin(), words.end());
   }

@@ -31,7 +31,7 @@ inline constexpr uint32_t kImageOfNeighbors = 0x80000000;
 struct NearSolids {
   uint32_t particle = 0;  ///< its index
   /// Indices of the solids, increasing; 0xffff after the last. If the first is 0xfffe, any solid may be near.
-  std::array<uint16_t, 6> solids = {};
+  std::array<uint16_t, 30> solids = {};
   friend bool operator==(const NearSolids&, const NearSolids&) = default;
 };
 
