@@ -1,7 +1,8 @@
 #pragma once
 // Implementation of rill::Graph. Declaration and plan are flat arrays that keep their capacity between frames.
-//   graph.cpp declares; compile.cpp culls and plans; plan_reuse.cpp reuses the plan of an equal frame;
-//   prepare.cpp creates device objects; record.cpp records; describe.cpp exports.
+//   graph.cpp has the public functions; resources.cpp, accesses.cpp and kernels.cpp declare; compile.cpp culls and plans;
+//   plan_reuse.cpp reuses the plan of an equal frame; prepare.cpp creates device objects; record.cpp records;
+//   describe.cpp exports.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -22,6 +23,8 @@
 namespace rill {
 
 inline constexpr uint32_t kNone = UINT32_MAX;
+/// Returned by a write whose error has been reported; causes no further errors.
+inline constexpr ResourceRef kInvalidRef{0, 0, 0};
 
 struct Access {
   uint32_t resource = 0;
@@ -158,8 +161,16 @@ class GraphImpl {
 
   // graph.cpp
   void reset();
+  void fail(std::string message);
+  std::string quoted(uint32_t name) const { return "'" + std::string(names[name]) + "'"; }
+
+  // resources.cpp
   ResourceRef add(ResourceData resource);
   void checkStates(const ResourceData& import);
+  /// Whether an import's usage flags allow this use; sets the frame's error if not.
+  bool checkUsage(uint32_t pass, const ResourceData& resource, Use use);
+
+  // accesses.cpp
   /// Null, with the frame's error set, if the ref is empty, stale or consumed.
   ResourceData* resolve(ResourceRef ref, bool isImage, uint32_t pass, const char* verb);
   void read(uint32_t pass, ResourceRef ref, bool isImage, Use use);
@@ -167,13 +178,7 @@ class GraphImpl {
   void addTarget(uint32_t pass, ResourceRef ref, Load load, const VkClearValue& clear);
   uint32_t beginPass(std::string_view name);
   void addAccess(uint32_t pass, Access access);
-  void fail(std::string message);
-  std::string quoted(uint32_t name) const { return "'" + std::string(names[name]) + "'"; }
   const Access* accessOf(uint32_t pass, uint32_t resource) const;
-  /// The access that the pass declared for this version of a resource; asserts that there is one.
-  const Access& declaredAccess(uint32_t pass, ResourceRef ref) const;
-  /// Whether an import's usage flags allow this use; sets the frame's error if not.
-  bool checkUsage(uint32_t pass, const ResourceData& resource, Use use);
 
   // compile.cpp
   Expected<void> compile();
@@ -214,6 +219,8 @@ class GraphImpl {
   // record.cpp
   void record(VkCommandBuffer commandBuffer);
   void beginTargets(const PassData& pass, VkCommandBuffer commandBuffer) const;
+  /// The access that the pass declared for this version of a resource; asserts that there is one.
+  const Access& declaredAccess(uint32_t pass, ResourceRef ref) const;
 
   // describe.cpp
   std::string memoryLabel(uint32_t resource) const;
