@@ -1,8 +1,8 @@
 #pragma once
 // Implementation of rill::Graph. Declaration and plan are flat arrays that keep their capacity between frames.
 //   graph.cpp has the public functions; resources.cpp, accesses.cpp and kernels.cpp declare; compile.cpp culls and plans;
-//   plan_reuse.cpp reuses the plan of an equal frame; prepare.cpp creates device objects; record.cpp records;
-//   describe.cpp exports.
+//   plan_reuse.cpp reuses the plan of an equal frame; prepare.cpp and descriptor_sets.cpp create device objects; record.cpp
+//   records; readbacks.cpp and timings.cpp return results; describe.cpp exports.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -207,14 +207,23 @@ class GraphImpl {
   Expected<void> checkSizes(const DeviceImpl& d) const;
   Expected<void> growHeaps(DeviceImpl& device);
   Expected<void> resolveBuffers(DeviceImpl& device);
-  Expected<void> placeReadbacks(DeviceImpl& device, FrameSlot& slot);
   Expected<void> queryImageRequirements(DeviceImpl& device);
   Expected<void> resolveImages(DeviceImpl& device, FrameSlot& slot);
+
+  // descriptor_sets.cpp
   void deduplicateSets();
   Expected<void> allocateSets(DeviceImpl& device, FrameSlot& slot);
+
+  // readbacks.cpp
+  /// Packs the read-backs into buffers of at most kSharedBufferBytes; a larger one has a buffer of its own.
+  Expected<void> placeReadbacks(DeviceImpl& device, FrameSlot& slot);
+  std::span<const std::byte> data(Ticket ticket);
+
+  // timings.cpp
+  /// Makes room for the timestamps of the frame.
+  Expected<void> prepareTimings(DeviceImpl& device, FrameSlot& slot);
   /// Updates the timings from the newest completed frame.
   void collect();
-  std::span<const std::byte> data(Ticket ticket);
 
   // record.cpp
   void record(VkCommandBuffer commandBuffer);
