@@ -1,5 +1,6 @@
 #pragma once
-// Pipelines and the device's cache of them. pipeline.cpp: shared parts and compute; graphics_pipeline.cpp: graphics.
+// Pipelines and the device's cache of them. pipeline.cpp: layouts and cache; compute_pipeline.cpp and graphics_pipeline.cpp: the two
+// kinds; pipeline_shaders.cpp: their shaders.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -12,6 +13,8 @@
 #include "gpu/subgroups.hpp"
 
 namespace rill {
+
+inline constexpr size_t kMaxConstants = 32;  ///< of a pipeline
 
 /// Pipelines with equal kinds share a layout, so that a frame's kernels can share descriptor sets.
 struct SetLayout {
@@ -141,7 +144,7 @@ class Constants {
   const VkSpecializationInfo* info() const { return info_.mapEntryCount ? &info_ : nullptr; }
 
  private:
-  std::array<VkSpecializationMapEntry, 32> entries_;
+  std::array<VkSpecializationMapEntry, kMaxConstants> entries_;
   VkSpecializationInfo info_;
 };
 /// An error of vkCreate*Pipelines, with the shader's name.
