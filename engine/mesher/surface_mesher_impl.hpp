@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
-#include <vector>
+#include <memory>
+#include <optional>
+#include <string_view>
 
 #include "mesher/mesher_records.h"
 #include "rill/surface_mesher.hpp"
@@ -13,7 +15,9 @@ namespace rill {
 /// particles are sorted by bin, and fields, vertices and triangles follow block by block. All places come from sorts and prefix sums.
 class SurfaceMesherImpl {
  public:
+  // surface_mesher.cpp
   static Expected<std::unique_ptr<SurfaceMesherImpl>> create(Device& device, const SurfaceMesherDesc& desc);
+  // surface_mesher_passes.cpp
   SurfaceMesh addTo(Graph& graph, const FluidState& fluid);
 
   SurfaceMesherDesc limits;
@@ -38,7 +42,6 @@ class SurfaceMesherImpl {
 
   uint32_t binCells_ = 0;  // along a bin
   uint64_t rows_ = 0, corners_ = 0;
-  std::vector<std::pair<std::string_view, uint64_t>> sizes_;  // of buffers, bytes
   std::array<uint32_t, 512> table_{};
   std::optional<KeySort> blockSort_, reachedSort_, binSort_;
   Scan particleScan_, reachedScan_, rowScan_;
