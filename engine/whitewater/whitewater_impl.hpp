@@ -6,11 +6,15 @@
 
 namespace rill {
 
+inline constexpr uint64_t kWhiteCountBytes = kWhiteCountWords * 4;
+
 /// The passes of a Whitewater. Fluid particles are sorted into the bins of a hashed grid; old diffuse particles move and are compacted;
 /// new ones follow behind them.
 class WhitewaterImpl {
  public:
+  // whitewater.cpp
   static Expected<std::unique_ptr<WhitewaterImpl>> create(Device& device, const WhitewaterDesc& desc);
+  // whitewater_passes.cpp
   WhitewaterState addTo(Graph& graph, const FluidState& fluid, double seconds, const Double3& gravity);
 
   WhitewaterDesc desc;
@@ -23,8 +27,11 @@ class WhitewaterImpl {
   };
   struct Frame;
 
+  // whitewater.cpp
   Expected<void> makeBuffers(Device& device);
   void stage(const WhitewaterSnapshot* snapshot);
+
+  // whitewater_passes.cpp
   WhitePush pushFor(const FluidState& fluid, double seconds, const Double3& gravity) const;
   void upload(Graph& graph, Frame& frame);
   void add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& frame) const;
