@@ -70,8 +70,8 @@ class Runner {
   /// Only between steps: the `stateHash` of rill-capture's figures.
   Expected<uint64_t> hash();
 
-  // These continue from the current state with a change; the current step is completed first. Errors as create(); then
-  // nothing is changed.
+  // These continue from the current state with a change (runner_changes.cpp); the current step is completed first. Errors as
+  // create(); then nothing is changed.
 
   /// Applies the settings of a scene that differs only in keys for which Session::isLive() is true. Emitters and solids stay as they are,
   /// but for the mass of bodies.
