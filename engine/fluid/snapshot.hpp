@@ -1,5 +1,5 @@
 #pragma once
-// A fluid's state on the host: whether a snapshot fits a fluid, and its lists as the device lays them out. No Vulkan.
+// A fluid's state on the host. snapshot_checks.cpp: whether it fits a fluid; snapshot_edits.cpp: changes to it. No Vulkan.
 #include <span>
 
 #include "fluid/settings.hpp"

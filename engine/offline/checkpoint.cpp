@@ -4,7 +4,7 @@
 //   the sections, each zero-padded to a multiple of 8 bytes
 //   64-bit FNV-1a of everything before
 // The checksum is verified before any content is used, and every length is checked against the file even so. Whether the state fits the
-// scene is checked when a fluid is created from it (engine/fluid/snapshot.cpp).
+// scene is checked when a fluid is created from it (engine/fluid/snapshot_checks.cpp).
 #include <algorithm>
 #include <array>
 #include <bit>
