@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
 
 #include "views/bounds.hpp"
 
@@ -92,6 +93,32 @@ CameraView sceneCamera(const Scene& scene, const ParticleSet& particles, double 
   addSolids(bounds, scene);
   const Double3 zero = {0, 0, 0};
   return bounds.empty() ? frameCamera(zero, zero, aspect) : frameCamera(bounds.min, bounds.max, aspect);
+}
+
+FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, double spacing, const CameraOffset& offset) {
+  const CameraBasis basis = cameraBasis(camera);
+  FluidView view;
+  double distance = 0;
+  const auto set = [](Float4& column, double x, double y, double z) {
+    column = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
+  };
+  for (int a = 0; a < 3; ++a) {
+    view.origin[a] = camera.eye[a] + offset.right_m * basis.right[a] + offset.up_m * basis.up[a];
+    distance = std::hypot(distance, camera.target[a] - camera.eye[a]);
+    set(view.view.column[a], basis.right[a], basis.up[a], -basis.forward[a]);
+  }
+  const double focal = 1 / std::tan(0.5 * camera.fov_y_deg * std::numbers::pi / 180);
+  const double near = std::max({0.1 * spacing, 1e-4 * distance, 1e-6});
+  view.projection.column[0] = {static_cast<float>(focal * height / width), 0, 0, 0};
+  view.projection.column[1] = {0, static_cast<float>(-focal), 0, 0};
+  const double x = 2 * offset.x_px / width - focal * height / width * offset.right_m / offset.focus_m;
+  const double y = 2 * offset.y_px / height + focal * offset.up_m / offset.focus_m;
+  view.projection.column[2] = {static_cast<float>(x), static_cast<float>(y), 0, -1};
+  view.projection.column[3] = {0, 0, static_cast<float>(near), 0};
+  view.width = width;
+  view.height = height;
+  view.focus_m = distance;
+  return view;
 }
 
 }  // namespace rill

@@ -1,5 +1,6 @@
 #pragma once
 // Cameras of pictures.
+#include "rill/fluid_renderer.hpp"
 #include "rill/particles.hpp"
 #include "rill/scene.hpp"
 
@@ -33,5 +34,8 @@ CameraView frameCamera(const Double3& min, const Double3& max, double aspect);
 
 /// The scene's camera. By default it frames the domain or, without a domain, the fluid and solids at the start.
 CameraView sceneCamera(const Scene& scene, const ParticleSet& particles, double aspect);
+
+/// A camera as a FluidView: reversed depth without a far plane. `origin` is the eye, so that a scene far from zero loses nothing.
+FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, double spacing, const CameraOffset& offset = {});
 
 }  // namespace rill

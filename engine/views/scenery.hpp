@@ -1,6 +1,6 @@
 #pragma once
 // What stands around the fluid: sky, floor, solids, the domain's edges or a glass tank, outlines of mouths and drains, drawn as graphics
-// passes with shadows of solids and fluid.
+// passes with shadows of solids and fluid. scenery_create.cpp: pipelines; scenery_light.cpp: sun, shadows, caustics; scenery.cpp: drawing.
 #include <memory>
 #include <vector>
 
@@ -17,9 +17,6 @@
 #include "views/scene_meshes.hpp"
 
 namespace rill {
-
-/// A camera as a FluidView: reversed depth without a far plane. `origin` is the eye, so that a scene far from zero loses nothing.
-FluidView fluidView(const CameraView& camera, uint32_t width, uint32_t height, double spacing, const CameraOffset& offset = {});
 
 class Scenery {
  public:
@@ -41,14 +38,21 @@ class Scenery {
   SunView sunView() const;
 
  private:
-  surface::SurfacePush lightPush(const FluidState& fluid, const Double3& origin) const;
+  static constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
+  static constexpr uint32_t kSolidVertices = 36;
+
   bool hasGround() const { return hasDomain() && (buffers_.host.scene.counts.w & 4u) != 0; }  // a floor that is closed
   bool hasDomain() const { return buffers_.host.scene.domain_min.w > 0; }
   bool hasEdges() const { return hasDomain() && !tank_; }
+  bool hasMeshes() const { return !meshes_.empty(); }
 
+  // scenery_light.cpp
+  surface::SurfacePush lightPush(const FluidState& fluid, const Double3& origin) const;
   ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
   BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit, ImageRef lightDepth,
                         BufferRef record) const;
+
+  // scenery.cpp
   void addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,
                 const surface::SurfacePush& camera, double time_s, BufferRef pixels = {}) const;
   /// What is lit by the sun.
@@ -57,7 +61,6 @@ class Scenery {
   };
   void addSolids(Graph& graph, SceneTargets& targets, const surface::SurfacePush& camera, const Drawing& drawing,
                  std::span<const Named> lit) const;
-  bool hasMeshes() const { return !meshes_.empty(); }
 
   const Environment* environment_ = nullptr;
   std::vector<FluidBody> fluids_;  ///< of a scene with several; otherwise empty
