@@ -11,24 +11,17 @@
 #include <string>
 #include <utility>
 
-#include "capture/output_folder.hpp"
-#include "capture/pose_table.hpp"
+#include "capture/frame_files.hpp"
 #include "capture/record.hpp"
-#include "capture/video.hpp"
 #include "core/words.hpp"
 #include "rill/offline.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
-#include "shared/exr.hpp"
-#include "shared/mesh_file.hpp"
 #include "shared/message.hpp"
 #include "shared/pipeline_cache_folder.hpp"
-#include "shared/ply.hpp"
-#include "shared/png.hpp"
 #include "shared/progress.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/signals.hpp"
-#include "shared/vtk_file.hpp"
 
 namespace rill::capture {
 namespace fs = std::filesystem;
@@ -62,8 +55,6 @@ class Capture {
     if (const auto made = createOutputs(); !made) return refuse(made.error());
     announce();
 
-    if (options_.exportPoses) poses_.emplace(scene_);
-    if (poses_ && first_ > 0) poses_->keep(folder_->file("poses.csv"), first_);
     record_ = std::make_unique<Record>(simulation_->scene(), simulation_->device(), options_.command, first_ > 0 ? (first_ - 1) / fps_ : 0);
     const Expected<void> ran = runFrames();
     progress_.clear();
@@ -72,11 +63,9 @@ class Capture {
     if (ran)
       if (const auto written = writeCheckpoint(); !written) code = fail(written.error());
     // After a failure, too: the figures and the video of the frames so far are complete.
-    if (video_)
-      if (const auto finished = video_->finish(); !finished) code = fail(finished.error());
-    if (poses_)
-      if (const auto written = apps::writeFile(folder_->file("poses.csv"), poses_->text()); !written) code = fail(written.error());
-    if (const auto written = writeSeries(); !written) code = fail(written.error());
+    if (const auto finished = files_->finishVideo(); !finished) code = fail(finished.error());
+    if (const auto written = files_->writePoses(); !written) code = fail(written.error());
+    if (const auto written = files_->writeSeries(record_->frames()); !written) code = fail(written.error());
     if (const auto written = writeStats(); !written) code = fail(written.error());
     if (const auto written = writeGraph(); !written) code = fail(written.error());
     if (const auto reported = report(); !reported) code = fail(reported.error());
@@ -87,10 +76,6 @@ class Capture {
 
  private:
   bool rendersImages() const { return options_.images || options_.video; }
-  bool writesFrames() const {
-    return options_.images || options_.exportPly || options_.exportMesh || options_.exportVtk || options_.exportPoses;
-  }
-
   Expected<void> readScene() {
     const auto file = apps::SceneFolders::standard().find(options_.scene);
     if (!file) return file.error();
@@ -109,7 +94,8 @@ class Capture {
     frames_ = static_cast<uint32_t>(frames);
     // A scene's name may contain a folder ("validation/x"), which is kept; the folders of a path are not.
     const bool byName = fs::path(options_.scene) != *file;
-    out_ = options_.out ? *options_.out : fs::path("out") / (byName ? fs::path(options_.scene) : fs::path(scene_.name));
+    const fs::path out = options_.out ? *options_.out : fs::path("out") / (byName ? fs::path(options_.scene) : fs::path(scene_.name));
+    files_.emplace(options_, scene_, out, fps_, first_);
     return {};
   }
 
@@ -139,9 +125,7 @@ class Capture {
       if (auto place = apps::checkFilePlace("--graph", *options_.graph); !place) return place;
     if (options_.checkpoint)
       if (auto place = apps::checkFilePlace("--checkpoint", *options_.checkpoint); !place) return place;
-    if (options_.video)
-      if (auto valid = Video::check(*options_.video); !valid) return valid;
-    return writesFrames() ? apps::checkFolderPlace("--out", out_) : Expected<void>();
+    return files_->check();
   }
 
   Expected<void> createOutputs() {
@@ -149,17 +133,7 @@ class Capture {
          {std::pair{"--stats", &options_.stats}, std::pair{"--graph", &options_.graph}, std::pair{"--checkpoint", &options_.checkpoint}})
       if (*file && !apps::isSpecialFile(**file) && (*file)->has_parent_path())
         if (auto made = apps::makeFolder(option, (*file)->parent_path()); !made) return made;
-    if (writesFrames()) {
-      auto folder = OutputFolder::prepare(out_, options_.resume.has_value());
-      if (!folder) return folder.error();
-      folder_ = std::make_unique<OutputFolder>(std::move(*folder));
-    }
-    if (options_.video) {
-      auto video = Video::start(*options_.video, options_.width, options_.height, fps_);
-      if (!video) return video.error();
-      video_.emplace(*std::move(video));
-    }
-    return {};
+    return files_->create();
   }
 
   void announce() {
@@ -179,7 +153,7 @@ class Capture {
       if (number > 0)
         if (auto ran = simulation_->advance(1.0 / fps_); !ran) return ran;
       const double time_s = number / fps_;
-      if (auto written = writeFrame(number, time_s); !written) return written;
+      if (auto written = files_->write(number, time_s, *simulation_); !written) return written;
       auto stats = simulation_->stats();
       if (!stats) return stats.error();
       const double error = stats->densityErrorMean;
@@ -205,68 +179,6 @@ class Capture {
     if (auto written = apps::writeFile(*options_.checkpoint, offline::encodeCheckpoint(*taken)); !written) return written;
     checkpointed_ = frames;
     return {};
-  }
-
-  Expected<void> writeFrame(uint32_t k, double time_s) {
-    if (options_.exr) {
-      auto image = simulation_->renderLinear(options_.width, options_.height);
-      if (!image) return image.error();
-      if (auto written = apps::writeExr(folder_->frame(k, "exr"), *image); !written) return written;
-    }
-    if (options_.video || (options_.images && !options_.exr)) {
-      auto image = simulation_->render(options_.view, options_.width, options_.height);
-      if (!image) return image.error();
-      if (options_.images && !options_.exr)
-        if (auto written = apps::writePng(folder_->frame(k, "png"), *image); !written) return written;
-      if (video_)
-        if (auto added = video_->add(*image); !added) return added;
-    }
-    if (poses_)
-      if (auto added = poses_->add(k, time_s, *simulation_); !added) return added;
-    if (auto written = writeMesh(k, time_s); !written || !(options_.exportPly || options_.exportVtk)) return written;
-    auto particles = simulation_->particles();
-    if (!particles) return particles.error();
-    if (options_.exportPly)
-      if (auto written = apps::writePly(folder_->frame(k, "ply"), *particles, time_s); !written) return written;
-    if (auto written = writeWhitewater(k, time_s); !written) return written;
-    return options_.exportVtk ? apps::writeFile(folder_->frame(k, "vtu"), apps::encodeVtu(*particles, time_s)) : Expected<void>();
-  }
-
-  /// Beside the particles, where the scene has whitewater.
-  Expected<void> writeWhitewater(uint32_t k, double time_s) {
-    if (!options_.exportPly || !scene_.look.whitewater) return {};
-    auto particles = simulation_->whitewater();
-    if (!particles) return particles.error();
-    return apps::writeFile(folder_->frame(k, "whitewater.ply"), apps::encodeWhitewaterPly(*particles, time_s));
-  }
-
-  Expected<void> writeMesh(uint32_t k, double time_s) {
-    if (!options_.exportMesh) return {};
-    auto mesh = simulation_->mesh(options_.meshCell);
-    if (!mesh) return mesh.error();
-    if (mesh->tooFar > 0 && !meshWarned_) {
-      message("warning: frame " + std::to_string(k) + ": " + grouped(mesh->tooFar) + " particles are too far away to be in the mesh");
-      meshWarned_ = true;
-    }
-    auto bytes = apps::encodeMesh(*mesh, time_s, options_.meshFormat);
-    if (!bytes) return bytes.error();
-    return apps::writeFile(folder_->frame(k, apps::meshExtension(options_.meshFormat)), *bytes);
-  }
-
-  /// Writes the lists of frames that ParaView opens; with --resume, frames that an earlier capture left are among them.
-  Expected<void> writeSeries() const {
-    const auto write = [&](bool wanted, const char* name, const char* extension) -> Expected<void> {
-      if (!wanted) return {};
-      std::vector<std::pair<double, std::string>> files;
-      for (uint32_t k = 0; k < first_ + static_cast<uint32_t>(record_->frames()); ++k) {
-        std::error_code ignored;
-        const fs::path file = folder_->frame(k, extension);
-        if (k >= first_ || fs::exists(file, ignored)) files.emplace_back(k / fps_, file.filename().string());
-      }
-      return apps::writeFile(folder_->file(name), apps::encodePvd(files));
-    };
-    if (auto written = write(options_.exportVtk, "particles.pvd", "vtu"); !written) return written;
-    return write(options_.exportMesh && options_.meshFormat == apps::MeshFormat::Vtp, "mesh.pvd", "mesh.vtp");
   }
 
   Expected<void> writeStats() const { return options_.stats ? apps::writeFile(*options_.stats, record_->json()) : Expected<void>(); }
@@ -298,21 +210,11 @@ class Capture {
         text += "\n";
       }
     }
-    const bool particles = options_.exportPly || options_.exportVtk;
-    if (!options_.quiet && (options_.images || particles || options_.exportMesh) && record_->frames() > 0) {
-      const auto last = static_cast<uint32_t>(first_ + record_->frames() - 1);
-      const char* kind = options_.exr          ? "exr"
-                         : options_.images     ? "png"
-                         : options_.exportPly  ? "ply"
-                         : options_.exportMesh ? apps::meshExtension(options_.meshFormat)
-                                               : "vtu";
-      message("frames: " + folder_->frame(first_, kind).string() +
-              (last > first_ ? " to " + folder_->frame(last, kind).filename().string() : ""));
-    }
-    if (!options_.quiet && poses_) message("poses: " + folder_->file("poses.csv").string());
+    if (!options_.quiet)
+      for (const std::string& place : files_->places(record_->frames())) message(place);
     if (!options_.quiet)
       for (const std::string& warning : record_->warnings()) message(warning);
-    if (!options_.quiet && video_ && video_->finished()) message("video: " + options_.video->string());
+    if (!options_.quiet && files_->videoFinished()) message("video: " + options_.video->string());
     if (!options_.quiet && checkpointed_ > 0)
       message("checkpoint: " + options_.checkpoint->string() + ", frame " + std::to_string(first_ + checkpointed_ - 1));
     return text.empty() ? Expected<void>() : apps::writeStream(jsonOnStdout ? STDERR_FILENO : STDOUT_FILENO, apps::printable(text));
@@ -342,18 +244,14 @@ class Capture {
 
   const Options& options_;
   Scene scene_;
-  fs::path out_;
   uint32_t frames_ = 0;  // of this run
   uint32_t first_ = 0;   // number of the first one
   double fps_ = 60;
   std::optional<offline::Checkpoint> resumed_;
-  bool meshWarned_ = false;
   uint32_t checkpointed_ = 0;  // frames of this run at the last checkpoint
   apps::Progress progress_;
   std::optional<offline::Simulation> simulation_;
-  std::unique_ptr<OutputFolder> folder_;
-  std::optional<Video> video_;
-  std::optional<PoseTable> poses_;
+  std::optional<FrameFiles> files_;
   std::unique_ptr<Record> record_;
 };
 
