@@ -3,21 +3,16 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <new>
 #include <optional>
 
 #include "gpu/resources.hpp"
-#include "offline/context.hpp"
+#include "offline/guarded.hpp"
+#include "offline/open_context.hpp"
 #include "offline/painter.hpp"
 #include "offline/picture_run.hpp"
 #include "rill/offline.hpp"
 
 namespace rill::offline {
-namespace {
-
-Error outOfMemory(const char* what) { return {ErrorKind::OutOfMemory, std::string(what) + ": out of memory"}; }
-
-}  // namespace
 
 class Player::Impl {
  public:
@@ -32,14 +27,7 @@ class Player::Impl {
     if (!(scene_.fluid.spacing > 0))
       return Error{ErrorKind::BadInput,
                    "fluid.spacing: not given, and no fill to compute it from fluid.particles; expected a number above 0 (m)"};
-    ContextDesc desc;
-    desc.device = options.device;
-    desc.deviceOrigin = options.deviceOrigin;
-    desc.validation = options.validation;
-    desc.pipelineCache = options.pipelineCache;
-    desc.reads = options.reads;
-    desc.framesInFlight = 1;
-    auto context = Context::create(desc);
+    auto context = openContext(options, 1);
     if (!context) return context.error();
     context_ = std::move(*context);
     return {};
@@ -175,30 +163,32 @@ Player::~Player() = default;
 Player::Player(Player&&) noexcept = default;
 Player& Player::operator=(Player&&) noexcept = default;
 
-Expected<Player> Player::open(Scene scene, const Options& options) try {
-  auto impl = std::make_unique<Impl>(std::move(scene), options);
-  if (auto opened = impl->open(options); !opened) return opened.error();
-  return Player(std::move(impl));
-} catch (const std::bad_alloc&) { return outOfMemory("opening the scene"); }
+Expected<Player> Player::open(Scene scene, const Options& options) {
+  return guarded("opening the scene", [&]() -> Expected<Player> {
+    auto impl = std::make_unique<Impl>(std::move(scene), options);
+    if (auto opened = impl->open(options); !opened) return opened.error();
+    return Player(std::move(impl));
+  });
+}
 
 Expected<void> Player::show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities,
                             double time_s, const std::vector<uint8_t>& fluids, const std::vector<Float4>& concentrations) {
   return impl_->show(positions, origin, velocities, time_s, fluids, concentrations);
 }
 
-Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t height) try {
-  return impl_->render(view, width, height);
-} catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
+Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t height) {
+  return guarded("drawing", [&] { return impl_->render(view, width, height); });
+}
 
-Expected<LinearImage> Player::renderLinear(uint32_t width, uint32_t height) try {
-  return impl_->renderLinear(width, height);
-} catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
+Expected<LinearImage> Player::renderLinear(uint32_t width, uint32_t height) {
+  return guarded("drawing", [&] { return impl_->renderLinear(width, height); });
+}
 
 std::string Player::pictureDot() const { return impl_->pictureDot(); }
 uint64_t Player::boundHits() const { return impl_->boundHits(); }
-Expected<void> Player::prepareRender(const std::string& view, uint32_t width, uint32_t height) try {
-  return impl_->prepareRender(view, width, height);
-} catch (const std::bad_alloc&) { return outOfMemory("drawing"); }
+Expected<void> Player::prepareRender(const std::string& view, uint32_t width, uint32_t height) {
+  return guarded("drawing", [&] { return impl_->prepareRender(view, width, height); });
+}
 
 const DeviceInfo& Player::device() const { return impl_->device(); }
 const Scene& Player::scene() const { return impl_->scene(); }

@@ -1,21 +1,9 @@
-#include <algorithm>
-#include <new>
 #include <optional>
 
+#include "offline/guarded.hpp"
 #include "offline/simulation_impl.hpp"
 
 namespace rill::offline {
-namespace {
-
-/// Runs `work` and turns std::bad_alloc into an error.
-template <class Work>
-auto guarded(const char* what, Work&& work) -> decltype(work()) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) { return Error{ErrorKind::OutOfMemory, std::string(what) + ": out of memory"}; }
-}
-
-}  // namespace
 
 std::string Simulation::Impl::explain() const {
   return passTable(log_.times(), log_.skipped()) + memoryTable(transientMemory()) + readsText(context_->device().info());

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/words.hpp"
+#include "offline/open_context.hpp"
 #include "offline/simulation_impl.hpp"
 #include "offline/whitewater_run.hpp"
 #include "rill/version.hpp"
@@ -26,14 +27,7 @@ Expected<void> Simulation::Impl::open(const Checkpoint* from) {
   if (from)
     if (const std::string difference = firstDifference(from->keys, simulationKeys(scene_, start_)); !difference.empty())
       return Error{ErrorKind::BadInput, "the checkpoint was written by another scene: " + difference};
-  ContextDesc desc;
-  desc.device = options_.device;
-  desc.deviceOrigin = options_.deviceOrigin;
-  desc.validation = options_.validation;
-  desc.pipelineCache = options_.pipelineCache;
-  desc.reads = options_.reads;
-  desc.framesInFlight = PieceQueue::kMaxInFlight;
-  auto context = Context::create(desc);
+  auto context = openContext(options_, PieceQueue::kMaxInFlight);
   if (!context) return context.error();
   context_ = std::move(*context);
   auto fluid = Fluid::create(context_->device(), {.scene = &scene_, .particles = &start_, .snapshot = from ? &from->fluid : nullptr});
