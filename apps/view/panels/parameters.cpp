@@ -23,21 +23,17 @@ class KeyField {
   KeyField(Board& board, std::string_view group, const model::Info& info)
       : board_(board), info_(info), key_(group.empty() ? std::string(info.key) : std::string(group) + "." + std::string(info.key)) {
     ImGui::PushID(key_.c_str());
-    ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.42f);
+    ImGui::SetNextItemWidth(width());
   }
   ~KeyField() {
     if (ImGui::IsItemHovered()) showTooltip();
     ImGui::SameLine();
-    const bool live = board_.session.isLive(key_), changed = board_.session.isChanged(key_);
-    std::string name(info_.key);
-    if (!info_.unit.empty()) name += " [" + std::string(info_.unit) + "]";
-    if (!live) name += " *";
-    if (changed) {
+    if (isChanged()) {
       if (ImGui::SmallButton("x")) board_.requests.reset = key_;
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("restore the value of the file");
       ImGui::SameLine();
     }
-    ImGui::TextUnformatted(name.c_str());
+    ImGui::TextUnformatted(label().c_str());
     if (ImGui::IsItemHovered()) showTooltip();
     ImGui::PopID();
   }
@@ -60,8 +56,9 @@ class KeyField {
     bool automatic = !value;
     if (ImGui::Checkbox("auto", &automatic)) request(automatic ? "\"auto\"" : text(middle()));
     if (automatic) return;
+    const float taken = ImGui::GetItemRectSize().x + ImGui::GetStyle().ItemSpacing.x;
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::GetWindowContentRegionMax().x * 0.42f - ImGui::GetItemRectSize().x - ImGui::GetStyle().ItemSpacing.x);
+    ImGui::SetNextItemWidth(std::max(width() - taken, narrowest()));
     draw(value.value_or(0));
   }
   void draw(const std::string& value) { choice(value); }
@@ -76,9 +73,22 @@ class KeyField {
   }
 
  private:
+  bool isLive() const { return board_.session.isLive(key_); }
+  bool isChanged() const { return board_.session.isChanged(key_); }
+  std::string unit() const { return info_.unit.empty() ? "" : " [" + std::string(info_.unit) + "]"; }
+  std::string label() const { return std::string(info_.key) + unit() + (isLive() ? "" : " *"); }
+  static float narrowest() { return 2.5f * ImGui::GetFontSize(); }
+  /// Of the field; less where the label is long, so that the panel shows all of it.
+  float width() const {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    float beside = ImGui::CalcTextSize(label().c_str()).x + style.ItemSpacing.x;
+    if (isChanged()) beside += ImGui::CalcTextSize("x").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+    const float end = ImGui::GetWindowContentRegionMax().x, room = end - ImGui::GetCursorPosX() - beside;
+    return std::max(std::min(0.42f * end, room), narrowest());
+  }
   void showTooltip() const {
-    std::string about = key_ + ": " + std::string(info_.help);
-    if (!board_.session.isLive(key_)) about += "\nA change restarts the scene.";
+    std::string about = key_ + unit() + ": " + std::string(info_.help);
+    if (!isLive()) about += "\nA change restarts the scene.";
     if (info_.words.empty()) about += "\nDrag it, or double-click to type.";
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
