@@ -99,7 +99,7 @@ class GraphHandles : public GpuTest {
  protected:
   void SetUp() override {
     GpuTest::SetUp();
-    if (!HasFatalFailure()) d = &implOf(device());
+    d = &implOf(device());
   }
   ImageRef fill(Graph& graph, ImageRef image, float base, Load load = Load::Discard) {
     static constexpr BindingKind kinds[] = {BindingKind::StorageImage};

@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "gpu/shader_library.hpp"
 #include "graph/shader_pass.hpp"
@@ -21,7 +23,7 @@ class SharedContext : public ::testing::Environment {
     static auto* environment = static_cast<SharedContext*>(::testing::AddGlobalTestEnvironment(new SharedContext));
     return *environment;
   }
-  offline::Context* context() {
+  offline::Context& context() {
     if (!context_ && error_.empty()) {
       offline::ContextDesc desc;
       const char* validation = std::getenv("RILL_TEST_VALIDATION");
@@ -32,8 +34,8 @@ class SharedContext : public ::testing::Environment {
       else
         error_ = made.error().message;
     }
-    if (!context_) ADD_FAILURE() << error_;
-    return context_ ? &*context_ : nullptr;
+    if (!context_) throw std::runtime_error(error_);
+    return *context_;
   }
   void TearDown() override { context_.reset(); }
 
@@ -47,8 +49,6 @@ class SharedContext : public ::testing::Environment {
 
 }  // namespace
 
-offline::Context* sharedContext() { return SharedContext::get().context(); }
-
 std::span<const uint32_t> testShader(std::string_view name) {
   for (const EmbeddedShader& shader : testShaders())
     if (shader.name == name) return shader.words;
@@ -57,8 +57,7 @@ std::span<const uint32_t> testShader(std::string_view name) {
 }
 
 void GpuTest::SetUp() {
-  context_ = sharedContext();
-  ASSERT_NE(context_, nullptr);
+  context_ = &SharedContext::get().context();
   (void)context_->takeMessages();
 }
 

@@ -13,15 +13,13 @@
 
 namespace rill::test {
 
-/// One context per test program, since opening a device takes longer than most tests. Null, with a test
-/// failure, if there is no device.
-offline::Context* sharedContext();
-
 /// SPIR-V of tests/support/shaders/NAME.comp.
 std::span<const uint32_t> testShader(std::string_view name);
 
+/// One context per test program, since opening a device takes longer than most tests.
 class GpuTest : public ::testing::Test {
  protected:
+  /// Throws the reason if there is no device: GoogleTest then runs neither the rest of a SetUp() nor the test.
   void SetUp() override;
   void TearDown() override;
 
