@@ -260,7 +260,7 @@ FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* fr
 
 void FluidTest::Run::fillTransients(uint32_t word) {
   graph_.reset();
-  BufferRef transients = graph_.create("transient fill", {uint64_t{8} << 20});
+  BufferRef transients = graph_.create("transient fill", {std::min(uint64_t{8} << 20, test_.rillDevice().info().maxBufferBytes)});
   graph_.pass("transient fill", [&](Pass& pass) {
     transients = pass.write(transients, Use::CopyTarget, true);
     pass.sideEffect();

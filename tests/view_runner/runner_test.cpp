@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "rill/offline.hpp"
@@ -234,6 +235,43 @@ TEST_F(ViewRunnerTest, LiveChangeContinuesFromCurrentState) {
   EXPECT_EQ(end->nonFinite, 0u);
   EXPECT_EQ(end->outside, 0u);
   EXPECT_LT(end->densityErrorMean, 0.01);
+}
+
+// Mud stiffens and flows again; what the passes of shear need is not in the state before.
+TEST_F(ViewRunnerTest, YieldStressChangesWhileFluidFlows) {
+  std::string text = kDam;
+  auto session = Session::open(context(), folder.write("mud.json", text.replace(text.find("0.1"), 3, "0.2")));
+  ASSERT_TRUE(session) << session.error().message;
+  Session& s = **session;
+  std::ptrdiff_t shears = 0;  // passes, in the last step
+  const auto kineticAfter = [&](int steps) {
+    for (int k = 0; k < steps; ++k) EXPECT_TRUE(s.runner().step());
+    shears = std::ranges::count(s.runner().fluid().passRuns(), "viscosity by shear", &FluidPassRuns::name);
+    const auto stats = s.runner().measure();
+    EXPECT_TRUE(stats);
+    if (!stats) return 0.0;
+    EXPECT_EQ(stats->nonFinite + stats->outside, 0u);
+    return stats->kinetic_J;
+  };
+  const double flows = kineticAfter(6);
+  ASSERT_TRUE(s.isLive("fluid.yield_stress"));
+  ASSERT_TRUE(s.change({"fluid.yield_stress", "20000"}));
+  const double stands = kineticAfter(6);
+  EXPECT_EQ(shears, 1);
+  EXPECT_LT(stands, 0.01 * flows);
+  ASSERT_TRUE(s.reset("fluid.yield_stress"));
+  EXPECT_GT(kineticAfter(6), 10 * stands);
+  EXPECT_EQ(shears, 0);
+  EXPECT_EQ(s.runner().steps(), 18u);
+
+  EXPECT_FALSE(s.isLive("fluid.surface_tension")) << "lists of neighbors are longer with it";
+  ASSERT_TRUE(s.change({"fluid.surface_tension", "10"}));
+  EXPECT_EQ(s.runner().steps(), 0u);
+  ASSERT_TRUE(s.isLive("fluid.contact_angle"));
+  EXPECT_GT(kineticAfter(2), 0);
+  ASSERT_TRUE(s.change({"fluid.contact_angle", "20"}));
+  EXPECT_GT(kineticAfter(2), 0);
+  EXPECT_EQ(s.runner().steps(), 4u);
 }
 
 TEST_F(ViewRunnerTest, InvalidChangeHasNoEffect) {
