@@ -284,7 +284,7 @@ std::string Record::passTable() const {
 }
 
 std::string Record::sleepText() const {
-  if (!scene_->solver.sleep || frames_.empty()) return {};
+  if (frames_.empty() || !frames_.back().stats.sleeping) return {};
   const auto without =
       std::ranges::count_if(frames_, [](const apps::Instant& frame) { return frame.stats.sleeping > 0 && frame.stats.substeps == 0; });
   const offline::Stats& last = frames_.back().stats;

@@ -4,6 +4,7 @@
 
 #include "fluid/fluids.hpp"
 #include "fluid/near_solids.hpp"
+#include "fluid/sleep.hpp"
 #include "fluid/steps.hpp"
 #include "fluid/viscosity.hpp"
 #include "shape/contact_points.hpp"
@@ -193,18 +194,18 @@ ArrayShape arrayShape(const FluidSetup& setup) {
 }
 
 ArrayShape arrayShape(const Scene& scene, uint64_t particles) {
-  const bool lists = scene.solver.neighbors != NeighborChoice::Grid;
+  const bool lists = scene.solver.neighbors != NeighborChoice::Grid, sleeps = maySleep(scene);
   const uint64_t cells = maxGridCells(particles);
   const uint64_t capacity = lists ? listCapacity(listReach(scene), listsHaveSegments(scene)) : 0;
   return {.particles = particles,
           .listEntries = divideUp(particles, kListBlock) * kListBlock * capacity,
-          .cellStarts = (scene.solver.sleep ? 2 : 1) * cells + 1 + uint64_t{removes(scene)},
+          .cellStarts = (sleeps ? 2 : 1) * cells + 1 + uint64_t{removes(scene)},
           .fluids = std::max<uint64_t>(scene.fluids.size(), 1),
           .solids = scene.solids.size(),
           .bodies = bodyCount(scene),
           .contactPoints = kMaxContactPoints * bodyCount(scene),
           .pressureProbes = pressureProbeCount(scene),
-          .regions = scene.solver.sleep ? cells / (kRegionCellsX * kRegionCellsY * kRegionCellsZ) : 0,
+          .regions = sleeps ? cells / (kRegionCellsX * kRegionCellsY * kRegionCellsZ) : 0,
           .lists = lists,
           .warm = startsWarm(scene),
           .multipliers = scene.solver.iterations > 1 || pressureProbeCount(scene) > 0,

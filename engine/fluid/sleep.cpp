@@ -63,6 +63,8 @@ std::vector<Interval> merged(std::vector<Interval> all) {
 
 }  // namespace
 
+bool maySleep(const Scene& scene) { return scene.solver.sleep && scene.fluids.size() < 2 && strongestGravity(scene) > 0; }
+
 void addSleep(const Scene& scene, double room, FluidSetup& setup) {
   if (!scene.solver.sleep) return;
   if (!(strongestGravity(scene) > 0)) {

@@ -212,7 +212,7 @@ struct Table<SolverSettings> {
             &SolverSettings::neighbors},
       Field{Info{.key = "sleep",
                  .help = "true: fluid at rest, or regions of it, take no part in substeps until gravity, a solid, a body, a wave or the "
-                         "host moves them. Not without gravity",
+                         "host moves them. Not without gravity, nor with several fluids",
                  .since = "0.2"},
             &SolverSettings::sleep}};
 };

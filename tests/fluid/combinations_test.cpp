@@ -256,5 +256,25 @@ TEST_F(CombinationsTest, RegionsOfMudSleepWithTheSameBitsAcrossACheckpoint) {
   EXPECT_EQ(firstDifference(run->saved(), resumed->saved()), "");
 }
 
+// Emitters of the second fluid and bodies among them.
+TEST_F(CombinationsTest, SleepHasNoEffectOnSeveralFluids) {
+  Trial t = fedHeaps()[2].trial;
+  const auto ends = [&](bool sleep) {
+    t.scene.solver.sleep = sleep;
+    auto run = start(t);
+    EXPECT_EQ(std::ranges::count(run->fluid().warnings(), "solver.sleep: has no effect in a scene with several fluids"), sleep ? 1 : 0);
+    frames(*run, 4);
+    EXPECT_EQ(run->stats().sleeping, std::nullopt);
+    for (const FluidPassRuns& runs : run->fluid().passRuns()) EXPECT_EQ(runs.name.find("asleep"), std::string_view::npos) << runs.name;
+    return std::pair(run->saved(), run->fluid().memory().total());
+  };
+  const auto never = ends(false), asked = ends(true);
+  EXPECT_EQ(firstDifference(never.first, asked.first), "");
+  EXPECT_EQ(never.second, asked.second);
+  const Scene sleeps = t.scene;
+  t.scene.solver.sleep = false;
+  EXPECT_EQ(fluidMemory(sleeps, 1000000).total(), fluidMemory(t.scene, 1000000).total());
+}
+
 }  // namespace combinations_test
 }  // namespace rill::test

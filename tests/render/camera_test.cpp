@@ -104,6 +104,17 @@ TEST(ParticleScene, ScalesAreFixedByTheScene) {
   EXPECT_DOUBLE_EQ(particleScene(scene, particles).compression_max, 0.01);
 }
 
+TEST(ParticleScene, SeveralFluidsHaveNoColorOfSleep) {
+  Scene scene;
+  scene.fluid.spacing = 0.1;
+  const ParticleSet particles{.positions = {{0, 0, 0}}, .velocities = {{0, 0, 0}}};
+  EXPECT_EQ(particleScene(scene, particles).scene.asleep.w, 0);
+  scene.solver.sleep = true;
+  EXPECT_EQ(particleScene(scene, particles).scene.asleep.w, 1);
+  scene.fluids = {{.name = "water"}, {.name = "oil"}};
+  EXPECT_EQ(particleScene(scene, particles).scene.asleep.w, 0);
+}
+
 TEST(ParticleView, RejectsEmptyAndTooLargePictures) {
   EXPECT_TRUE(ParticleView::check({1, 1}));
   EXPECT_TRUE(ParticleView::check({7680, 4320}));
