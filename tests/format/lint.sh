@@ -47,7 +47,7 @@ printf '%s\n' "${files[@]}"
 
 # The flags of any file; the presets' own compile commands name files that are put together (RILL_UNITY).
 flags=(-std=c++20 -DVK_NO_PROTOTYPES -DRILL_SHADER_RELOAD -Iengine/include -Iengine -Iapps -Itests -Ishaders -isystem /usr/include/imgui -Wno-pragma-once-outside-header)
-for name in RILL_SOURCE_DIR RILL_BINARY_DIR RILL_CXX RILL_FAILING_LAYER_FOLDER RILL_SOURCE_SCENES; do flags+=("-D$name=\"/lint\""); done
+for name in RILL_SOURCE_DIR RILL_BINARY_DIR RILL_CXX RILL_LAYERS_FOLDER RILL_SOURCE_SCENES; do flags+=("-D$name=\"/lint\""); done
 
 export tidy
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "${RILL_LINT_JOBS:-1}" bash -c '
