@@ -1,8 +1,11 @@
 // Cost of each feature when enabled, checks that disabled features cost nothing, and the passes that each scene runs.
 #include <algorithm>
+#include <array>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "bench/mesh_shapes.hpp"
 #include "bench/suites/suites.hpp"
@@ -65,6 +68,22 @@ Solid meshBall() {
   return solid;
 }
 
+/// 36 boxes of three spacings, four and five apart, in the fluid of the base scene; each is `what`, too.
+std::string manyBoxes(const std::string& what) {
+  constexpr double kSpacing = 1.0 / 12;
+  nlohmann::json boxes = nlohmann::json::array();
+  for (int n = 0; n < 36; ++n) {
+    const std::array<double, 3> low{(1 + n % 6 * 5) * kSpacing, (19 + n / 6 % 2 * 5) * kSpacing, n / 12 * 4 * kSpacing};
+    nlohmann::json box = nlohmann::json::parse(what);
+    for (const double x : low) {
+      box["box"]["min"].push_back(x);
+      box["box"]["max"].push_back(x + 3 * kSpacing);
+    }
+    boxes.push_back(std::move(box));
+  }
+  return boxes.dump();
+}
+
 std::vector<Feature> features() {
   return {
       {"viscosity", {{"fluid.viscosity", "1"}}, {{"fluid.viscosity", "0"}}},
@@ -93,6 +112,10 @@ std::vector<Feature> features() {
       {.name = "mesh of 8,192 triangles", .on = {}, .off = {{"solids", "[]"}}, .solid = meshBall()},
       {"moving solid", {{"solids", kMoving}}},
       {"load on a solid", {{"rill", "\"0.2\""}, {"solids", kNamedBox}, {"probes", kLoad}}},
+      {"36 boxes", {{"solids", manyBoxes("{}")}}, {{"solids", "[]"}}},
+      {"36 floating boxes",
+       {{"rill", "\"0.2\""}, {"solids", manyBoxes(R"({"body": {"density": 500}})")}},
+       {{"rill", "\"0.2\""}, {"solids", "[]"}}},
       {"floating box", {{"rill", "\"0.2\""}, {"solids", kBody}}, {{"rill", "\"0.2\""}, {"solids", "[]"}}},
       {"pressure at a point", {{"rill", "\"0.2\""}, {"probes", kPressure}}, {{"rill", "\"0.2\""}, {"probes", "[]"}}},
       {"tap", {{"rill", "\"0.2\""}, {"emitters", kTap}}, {{"rill", "\"0.2\""}, {"emitters", "[]"}}},
