@@ -21,6 +21,8 @@ NearSolids nothingNear() {
   return near;
 }
 
+bool anyMayBeNear(const FluidSnapshot& s) { return s.nearSolids.empty() && !hasNeighbors(s); }
+
 }  // namespace
 
 uint32_t nearSolidQuads(uint64_t solids) {
@@ -28,19 +30,17 @@ uint32_t nearSolidQuads(uint64_t solids) {
   return static_cast<uint32_t>(std::min<uint64_t>((halves + 7) / 8, kMaxNearQuads));
 }
 
-std::vector<NearSolids> firstNearSolids(const FluidSnapshot& s) {
-  if (!s.nearSolids.empty() || hasNeighbors(s)) return s.nearSolids;
+size_t firstNearSolids(const FluidSnapshot& s) { return anyMayBeNear(s) ? s.id.size() : s.nearSolids.size(); }
+
+std::vector<uint32_t> layOutNearSolids(const FluidSnapshot& s, uint32_t quads) {
   NearSolids any = nothingNear();
   any.solids[0] = kAllSolids;
-  std::vector<NearSolids> all(s.id.size(), any);
-  for (uint32_t i = 0; i < all.size(); ++i) all[i].particle = i;
-  return all;
-}
-
-std::vector<uint32_t> layOutNearSolids(std::span<const NearSolids> all, uint32_t quads) {
   const size_t words = kQuadWords * quads;
-  std::vector<uint32_t> out(words * all.size());
-  for (size_t n = 0; n < all.size(); ++n) std::memcpy(&out[words * n], &all[n], words * sizeof(uint32_t));
+  std::vector<uint32_t> out(words * firstNearSolids(s));
+  for (uint32_t n = 0; n < firstNearSolids(s); ++n) {
+    any.particle = n;
+    std::memcpy(&out[words * n], anyMayBeNear(s) ? &any : &s.nearSolids[n], words * sizeof(uint32_t));
+  }
   return out;
 }
 

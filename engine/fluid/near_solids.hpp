@@ -1,5 +1,5 @@
 #pragma once
-// Which solids are near which particles, as the device stores it (NearSolidRecord in shaders/shared/solid_records.h).
+// Which solids are near which particles, as the device stores it (shaders/shared/solid_records.h).
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,11 +11,10 @@ namespace rill {
 /// Four words each, of an entry: what all solids of a scene take, at most kMaxNearQuads.
 uint32_t nearSolidQuads(uint64_t solids);
 
-/// Of a snapshot. Before the first list of neighbors any solid may be near any particle.
-std::vector<NearSolids> firstNearSolids(const FluidSnapshot& snapshot);
-
-/// The entries as the device stores them.
-std::vector<uint32_t> layOutNearSolids(std::span<const NearSolids> all, uint32_t quads);
+/// How many entries a snapshot begins with, and these as the device stores them. Before the first list of neighbors any solid may be near
+/// any particle.
+size_t firstNearSolids(const FluidSnapshot& snapshot);
+std::vector<uint32_t> layOutNearSolids(const FluidSnapshot& snapshot, uint32_t quads);
 /// The other way. `words`: whole entries.
 std::vector<NearSolids> gatherNearSolids(std::span<const uint32_t> words, uint32_t quads);
 

@@ -27,6 +27,10 @@ std::optional<std::string> exceeded(const DeviceInfo& info, uint64_t available, 
     if (const uint64_t bytes = arrayBytes(row.id, shape); bytes > info.maxBufferBytes)
       return "the buffer of " + std::string(row.label) + " would have " + bytesText(bytes) + ", and one has at most " +
              bytesText(info.maxBufferBytes) + " (" + std::string(info.maxBufferName) + ")";
+    const uint64_t texels = row.id == FluidArray::NearSolids ? row.length(shape) : 0;  // which may be several a particle
+    if (info.texelReads && texels > info.maxTexelBufferElements)
+      return "the buffer of " + std::string(row.label) + " would have " + std::to_string(texels) + " texels, and one has at most " +
+             std::to_string(info.maxTexelBufferElements);
   }
   if (listChunks(info, shape) > kMaxListChunks)
     return "their neighbor lists would have " + bytesText(arrayBytes(FluidArray::List, shape)) + ", more than " +

@@ -35,7 +35,7 @@ layout(std430, binding = 11) writeonly buffer PredictionBlock { vec4 prediction[
 layout(std430, binding = 12) writeonly buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 13) writeonly buffer WarmBlock { float warm[]; };
 layout(std430, binding = 14) writeonly buffer IdBlock { uint id[]; };
-layout(std430, binding = 15) writeonly buffer NearSolidsBlock { uvec4 nearSolids[]; };  // NearSolidRecord
+layout(std430, binding = 15) writeonly buffer NearSolidsBlock { uvec4 nearSolids[]; };
 READ_UINT4(16, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
 #include "shared/solid_records.h"

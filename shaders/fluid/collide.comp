@@ -13,7 +13,7 @@ layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 #include "shared/arrays.glsl"
-READ_UINT4(6, nearSolids)  // NearSolidRecord
+READ_UINT4(6, nearSolids)
 READ_UINT4(8, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
 READ_UINT(13, meshWord)
@@ -48,24 +48,24 @@ void pushedBy(uint k, SolidRecord s, vec3 x, vec3 normal, vec3 by) {
 }
 #define PUSHED(k, solid, x, normal, by) pushedBy(k, solid, x, normal, by)
 
-// Of the solids near a particle few are beside it in a substep. CPU drivers execute all of a loop's body in each iteration, so a short
-// loop finds those first, but for few.
+// Of many solids near a particle few are within its reach in a substep. CPU drivers execute all of a loop's body in each iteration, so a
+// short loop finds those first.
 vec3 start;
-uint beside = NEAR_QUADS > 1u ? 0u : 0xffffffffu;  // of the first 32
-void findBeside(NearSolids near, vec3 x) {
+uint reachable = NEAR_QUADS > 1u ? 0u : 0xffffffffu;  // bits of the first 32
+void findReachable(NearSolids near, vec3 x) {
   start = x;
-  float reach = 1.1 * params.margin + 2.0 * params.spacing + control.solidSpeed * ahead();
+  float reach = 1.1 * params.margin + 2.0 * params.spacing + control.solidSpeed * max(ahead(), control.step);
   for (uint m = 0u, k; NEAR_QUADS > 1u && !near.all && nextSolid(near, m, k); ++m)
-    if (!isBeyond(centerOf(solidAt(k).pose), solidAt(k).radius, x, reach)) beside |= 1u << m;
+    if (!isBeyond(centerOf(solidAt(k).pose), solidAt(k).radius, x, reach)) reachable |= 1u << m;
 }
 
-// With the solids to visit for a particle at x alone: up to a spacing from the start those that were found.
-NearSolids besides(NearSolids near, vec3 x) {
+// Without those that a particle at x cannot reach: up to a spacing from the start those that were found are left.
+NearSolids withinReach(NearSolids near, vec3 x) {
   vec3 apart = x - start;
-  near.mask = dot(apart, apart) < params.spacing * params.spacing ? beside : 0xffffffffu;
+  near.mask = dot(apart, apart) < params.spacing * params.spacing ? reachable : 0xffffffffu;
   return near;
 }
-#define MOVED(near, x) near = besides(near, x)
+#define MOVED(near, x) near = withinReach(near, x)
 #include "fluid/outside.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
@@ -95,7 +95,7 @@ void predict(uint i, NearSolids near, vec3 x, vec3 v, uint fluid) {
   if (FORCES) return;  // predict.comp, after them
   float pushed;
   vec3 planned = predicted(x, v, keptWarmAcceleration(warmAcceleration[i]));
-  vec3 next = outside(planned, besides(near, planned), ahead(), pushed);
+  vec3 next = outside(planned, withinReach(near, planned), ahead(), pushed);
   prediction[i] = vec4(next, withFluid(pushed, fluid));
 }
 
@@ -110,8 +110,8 @@ void main() {
   ownInverseMass = inverseMassOf(fluid);
   float pushed;
   countsPushes = control.phase == kPhaseAdvancing;
-  findBeside(near, from);
-  vec3 x = outside(from, besides(near, from), 0.0, pushed);
+  findReachable(near, from);
+  vec3 x = outside(from, withinReach(near, from), 0.0, pushed);
   countsPushes = false;
   if (control.phase != kPhaseAdvancing) {
     position[i] = vec4(x, storedFluid(fluid));
@@ -128,10 +128,10 @@ void main() {
   vec3 given = ownInverseMass * multiplier * nearDisplaced[i].xyz / control.step + gained;
   if (LOADS && freeVelocity[i].w > 0.0) {
     vec3 center, direction, at = uintBitsToFloat(work[i].xyz);
-    uint pushing = nearestSolid(besides(near, at), at, center, direction);
+    uint pushing = nearestSolid(withinReach(near, at), at, center, direction);
     if (pushing != kNoSolid) addToSolid(pushing, center, freeVelocity[i].w / ownInverseMass * direction, at);
   }
-  NearSolids touched = besides(near, x);
+  NearSolids touched = withinReach(near, x);
   for (uint m = 0u, k; nextSolid(touched, m, k); ++m) {
     SolidRecord s = solidAt(k);
     if (s.friction <= 0.0 && s.restitution <= 0.0) continue;

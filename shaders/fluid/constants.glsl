@@ -17,7 +17,6 @@ layout(constant_id = 12) const bool REBUILDS = false;  // the list is built afte
 layout(constant_id = 14) const uint TENSILE_POWER = 0; // n of artificial pressure if that is whole, else 0
 layout(constant_id = 15) const bool MESHES = false;    // some solids are meshes
 layout(constant_id = 16) const bool CULL_SOLIDS = false;  // many solids: each workgroup finds those near it
-layout(constant_id = 30) const uint NEAR_QUADS = 1;      // four words each, of an entry of NearSolidRecord
 layout(constant_id = 17) const bool LOADS = false;     // loads on solids are measured
 layout(constant_id = 18) const bool BODIES = false;    // some solids are rigid bodies
 layout(constant_id = 19) const bool COUNTS = false;    // contacts of bodies are counted, not solved
@@ -31,5 +30,6 @@ layout(constant_id = 26) const bool DIFFUSES = false;  // some of them diffuse
 layout(constant_id = 27) const bool INTERFACES = false;  // some have tension between them
 layout(constant_id = 28) const bool SHEAR_VISCOSITY = false;  // shear changes the viscosity of a fluid
 layout(constant_id = 29) const bool TENSION = false;   // the surface has tension: lists have a segment of far neighbors
+layout(constant_id = 30) const uint NEAR_QUADS = 1;    // size of an entry of nearSolids, in units of four words
 #define LIST_OVERSIZED_ID 13
 #endif

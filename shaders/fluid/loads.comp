@@ -13,7 +13,7 @@ READ_UINT(9, meshWord)
 #define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
-READ_UINT4(3, nearSolids)  // NearSolidRecord
+READ_UINT4(3, nearSolids)
 #include "fluid/near_solids.glsl"
 layout(local_size_x = kFluidGroup) in;
 

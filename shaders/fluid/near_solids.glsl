@@ -1,6 +1,6 @@
-// The solids near a particle, as build.comp lists them. Needs `params` and nearSolidsAt(), the array of NearSolidRecord:
+// The solids near a particle, as build.comp lists them. Needs `params` and nearSolidsAt(), the array of their entries:
 //   NearSolids near = nearSolidsOf(n);  // entry n; near.particle
-//   for (uint m = 0u, k; nextSolid(near, m, k); ++m) { ... solids[k] ... }
+//   for (uint m = 0u, k; nextSolid(near, m, k); ++m) { ... solidAt(k) ... }
 #ifndef RILL_NEAR_SOLIDS_GLSL
 #define RILL_NEAR_SOLIDS_GLSL
 #include "shared/solid_records.h"

@@ -10,7 +10,7 @@ READ_UINT(7, meshWord)
 layout(local_size_x = kFluidGroup) in;
 
 READ_UINT4(2, work)        // the prediction of the substep
-READ_UINT4(3, nearSolids)  // NearSolidRecord
+READ_UINT4(3, nearSolids)
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)
 READ_UINT4(6, solids)  // SolidRecord

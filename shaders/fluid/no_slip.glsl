@@ -1,5 +1,5 @@
 // How solids hold viscous fluid: what fluid in their place would add to its force. See docs/notes/slip.md.
-// Needs what fluid/solid_density.glsl needs.
+// Needs what fluid/solid_density.glsl needs, nearSolidsAt() and solidAt().
 #ifndef RILL_NO_SLIP_GLSL
 #define RILL_NO_SLIP_GLSL
 #include "fluid/fluids.glsl"

@@ -1,4 +1,4 @@
-// Projects centers out of solids. Needs `params`, solidsAt(), nearSolidsAt() and meshWordAt().
+// Projects centers out of solids. Needs `params`, solidAt(), nearSolidsAt() and meshWordAt().
 #ifndef RILL_OUTSIDE_GLSL
 #define RILL_OUTSIDE_GLSL
 #define MESH_WORDS
@@ -6,9 +6,11 @@
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
-// PUSHED(k, solid, x, normal, by), if defined, is called where a solid moves a center from x, MOVED(near, x) after that.
+// PUSHED(k, solid, x, normal, by), if defined, is called where a solid moves a center from x, MOVED(near, x) with its place after that.
 #ifndef PUSHED
 #define PUSHED(k, solid, x, normal, by)
+#endif
+#ifndef MOVED
 #define MOVED(near, x)
 #endif
 

@@ -17,7 +17,7 @@ layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
 READ_FLOAT4(8, nearTangential)
-READ_UINT4(9, nearSolids)                                                      // NearSolidRecord
+READ_UINT4(9, nearSolids)
 layout(std430, binding = 10) writeonly buffer ExcessBlock { vec4 nearExcess[]; };  // m, two of each particle, of a mass of 1
 
 vec3 here;

@@ -12,7 +12,7 @@ READ_FLOAT4(4, warmAcceleration)
 layout(std430, binding = 5) writeonly buffer PredictionBlock { vec4 prediction[]; };
 READ_UINT4(6, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
-READ_UINT4(7, nearSolids)  // NearSolidRecord
+READ_UINT4(7, nearSolids)
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 READ_UINT(9, meshWord)
 READ_UINT(10, listHead)

@@ -1,5 +1,5 @@
 // The density that a solid displaces, from the tables of engine/sph/solid_density.hpp and the fields of engine/sph/mesh_field.hpp.
-// Needs `params`, tableAt(k), the storage array `solids`, and shared/pose.glsl and shared/shape.glsl.
+// Needs `params`, tableAt(k), shared/pose.glsl and shared/shape.glsl.
 #ifndef RILL_SOLID_DENSITY_GLSL
 #define RILL_SOLID_DENSITY_GLSL
 

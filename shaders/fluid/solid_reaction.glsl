@@ -1,4 +1,4 @@
-// Adds to the sums of solids what they displace particles by. Needs `params`, shared/pose.glsl and the storage array `solidSums`.
+// Adds to the sums of solids what they displace particles by. Needs `params` and the storage array `solidSums`.
 #ifndef RILL_SOLID_REACTION_GLSL
 #define RILL_SOLID_REACTION_GLSL
 #include "fluid/solid_sums.glsl"

@@ -10,7 +10,7 @@ READ_UINT(9, meshWord)
 #define MESH_WORDS
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
-READ_UINT4(3, nearSolids)  // NearSolidRecord
+READ_UINT4(3, nearSolids)
 #include "fluid/near_solids.glsl"
 #include "fluid/solid_coverage.glsl"
 layout(local_size_x = kFluidGroup) in;

@@ -5,7 +5,7 @@
 #include "shared/arrays.glsl"
 READ_UINT(7, meshWord)
 #define MESH_WORDS
-READ_UINT4(3, nearSolids)  // NearSolidRecord
+READ_UINT4(3, nearSolids)
 #include "fluid/near_solids.glsl"
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"

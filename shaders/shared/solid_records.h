@@ -50,8 +50,8 @@ RILL_CONST uint kSolidQuads = 12u;  // of a SolidRecord, four words each
 
 RILL_CONST uint kNoBody = 0xffffffffu;
 
-// NearSolidRecord: a particle near solids and these, in NEAR_QUADS times four words. The first word is the particle; the others have two
-// solids each by increasing index, the first in the low half, and kNoSolid after the last. kAllSolids as the first: any solid may be near.
+// An entry of the array nearSolids, in NEAR_QUADS times four words: a particle, then the solids near it by increasing index, two a word,
+// the first in the low half, and kNoSolid after the last. kAllSolids as the first: any solid may be near.
 RILL_CONST uint kMaxSolids = 4096u, kMaxNearQuads = 4u, kListedSolids = 8u * kMaxNearQuads - 2u, kNoSolid = 0xffffu, kAllSolids = 0xfffeu;
 
 RILL_RECORDS_END

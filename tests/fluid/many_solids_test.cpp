@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "fluid/near_solids.hpp"
 #include "fluid/rig.hpp"
 #include "shape/pose.hpp"
 #include "shared/solid_records.h"
@@ -34,7 +35,7 @@ class ManySolidsTest : public FluidTest {};
 
 TEST_F(ManySolidsTest, MatchReference) {
   const Trial t = falling();
-  expectEqual(t, 1, 4e-5, 2e-3);
+  expectEqual(t, 1, 4e-5, 2e-3);  // the density that up to 36 solids displace is summed, each rounded
   expectEqual(t, 10, 1e-3, 1e-1);
 }
 
@@ -79,6 +80,44 @@ TEST_F(ManySolidsTest, GoOnFromASnapshotBitwise) {
   auto second = start(t, &saved);
   second->substeps(10);
   EXPECT_EQ(whole->snapshot(), second->snapshot());
+}
+
+/// How many more solids a list has room for changes how it is stored, not what it says: of five solids, one a body and one that fluid
+/// sticks to, the bits are the same beside others that are out of reach.
+TEST_F(ManySolidsTest, DistantSolidsChangeNoBit) {
+  Trial t = falling();
+  t.scene.solids.resize(5);
+  t.scene.solids[1].body = Body{.density = 600};
+  t.scene.solids[3].slip = false;
+  t.scene.fluid.viscosity = 1;
+  auto alone = start(t);
+  alone->substeps(10);
+  for (const size_t solids : {7, 15, 23, 31}) {
+    while (t.scene.solids.size() < solids) {
+      const double n = double(t.scene.solids.size());
+      t.scene.solids.push_back(slab({3.6, 0.02 * n, 0.4}, {3.7, 0.02 * n + 0.01, 0.6}));
+    }
+    auto run = start(t);
+    run->substeps(10);
+    EXPECT_EQ(run->snapshot(), alone->snapshot()) << solids << " solids";
+  }
+}
+
+TEST(NearSolidEntries, ComeBackAsTheyWere) {
+  for (const auto& [solids, quads] : std::initializer_list<std::pair<uint32_t, uint32_t>>{
+           {1, 1}, {6, 1}, {7, 2}, {14, 2}, {15, 3}, {22, 3}, {23, 4}, {30, 4}, {31, 4}, {kMaxSolids, 4}}) {
+    ASSERT_EQ(nearSolidQuads(solids), quads) << solids << " solids";
+    FluidSnapshot s;
+    for (uint32_t particle = 0; particle < 3; ++particle) {
+      NearSolids near{.particle = 5 * particle};
+      near.solids.fill(kNoSolid);
+      for (uint32_t k = 0; k < std::min(solids, kListedSolids) - particle % solids; ++k) near.solids[k] = static_cast<uint16_t>(k);
+      s.nearSolids.push_back(near);
+    }
+    const std::vector<uint32_t> words = layOutNearSolids(s, quads);
+    EXPECT_EQ(words.size(), size_t{3} * 4 * quads);
+    EXPECT_EQ(gatherNearSolids(words, quads), s.nearSolids) << solids << " solids";
+  }
 }
 
 }  // namespace many_solids_test

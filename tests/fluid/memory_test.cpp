@@ -157,6 +157,18 @@ TEST_F(CountedMemory, FollowsTheBudget) {
   EXPECT_EQ(maxParticles(*device, scene), 0u) << "other processes have allocated it since";
 }
 
+TEST_F(CountedMemory, ListsOfManySolidsFitTexelViews) {
+  vulkan.properties.storageBufferRange = 0xFFFFFFFF;
+  vulkan.properties.maxAllocation = 0xFFE00000;
+  vulkan.properties.maxTexelBufferElements = 1u << 27;
+  vulkan.properties.heapBytes = 400'000'000'000;
+  device = *Device::borrow(vulkan.host());
+  device->beginFrame({1, 0});
+  scene.domain = Domain{};
+  for (int k = 0; k < 23; ++k) scene.solids.push_back(Solid{.shape = SphereShape{{0, 0, 0}, 0.5}});
+  EXPECT_EQ(maxParticles(*device, scene), (1u << 27) / 4) << "four texels a particle";
+}
+
 // Limits as NVIDIA's driver has them; modelled.
 TEST_F(CountedMemory, HoldsTwentyMillionParticlesOn24Gigabytes) {
   vulkan.properties.storageBufferRange = 0xFFFFFFFF;

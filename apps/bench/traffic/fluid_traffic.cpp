@@ -33,14 +33,15 @@ const ArrayRow* arrayLabeled(std::string_view label) {
   return row == arrayTable().end() ? nullptr : &*row;
 }
 
-bool isPerParticle(const ArrayRow& row, ArrayShape shape) {
+/// Elements that a particle has of an array; 0 of one that is not per particle.
+uint64_t elementsPerParticle(const ArrayRow& row, ArrayShape shape) {
   const uint64_t before = row.length(shape), particles = shape.particles;
   shape.particles *= 2;
-  return (row.length(shape) - before) / particles == 1;
+  return (row.length(shape) - before) / particles;
 }
 
-/// Elements of an array that a dispatch over `covered` particles touches, each counted once. Arrays that are not per particle, and those of
-/// the sort, whose invocations take several keys, count as a whole.
+/// Particles whose elements of an array a dispatch over `covered` ones touches, each counted once. Arrays that are not per particle, and
+/// those of the sort, whose invocations take several keys, count as a whole.
 double touched(const ArrayRow& row, double covered, const FluidCounts& counts) {
   switch (row.id) {
     case FluidArray::NearDisplaced:
@@ -62,8 +63,8 @@ void addBytes(PassTraffic& to, const FluidPassRow* pass, const TracedDispatch& d
       // Neighbors are not in the shader: as many as the lists had, rounded up to a whole load or store.
       const double group = std::max({binding.access.readBytes, binding.access.writeBytes, array->stride});
       bytes = covered * counts.entries * array->stride + covered * (group - array->stride) / 2;
-    } else if (pass && array && isPerParticle(*array, shape)) {
-      bytes = touched(*array, covered, counts) * array->stride;
+    } else if (const uint64_t elements = pass && array ? elementsPerParticle(*array, shape) : 0; elements > 0) {
+      bytes = touched(*array, covered, counts) * double(elements) * array->stride;
       if (pass->extent == Extent::Gather && binding.access.readsInLoop) to.gatheredBytes += covered * counts.entries * array->stride;
     }
     if (binding.access.reads) to.readBytes += bytes;
