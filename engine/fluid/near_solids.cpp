@@ -4,7 +4,6 @@
 #include <cstring>
 #include <functional>
 
-#include "fluid/neighbor_list.hpp"
 #include "fluid/snapshot.hpp"
 #include "shared/solid_records.h"
 
@@ -30,14 +29,14 @@ uint32_t nearSolidQuads(uint64_t solids) {
   return static_cast<uint32_t>(std::min<uint64_t>((halves + 7) / 8, kMaxNearQuads));
 }
 
-size_t firstNearSolids(const FluidSnapshot& s) { return anyMayBeNear(s) ? s.id.size() : s.nearSolids.size(); }
+size_t nearSolidCount(const FluidSnapshot& s) { return anyMayBeNear(s) ? s.id.size() : s.nearSolids.size(); }
 
 std::vector<uint32_t> layOutNearSolids(const FluidSnapshot& s, uint32_t quads) {
   NearSolids any = nothingNear();
   any.solids[0] = kAllSolids;
   const size_t words = kQuadWords * quads;
-  std::vector<uint32_t> out(words * firstNearSolids(s));
-  for (uint32_t n = 0; n < firstNearSolids(s); ++n) {
+  std::vector<uint32_t> out(words * nearSolidCount(s));
+  for (uint32_t n = 0; n < nearSolidCount(s); ++n) {
     any.particle = n;
     std::memcpy(&out[words * n], anyMayBeNear(s) ? &any : &s.nearSolids[n], words * sizeof(uint32_t));
   }

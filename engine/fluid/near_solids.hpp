@@ -11,9 +11,9 @@ namespace rill {
 /// Four words each, of an entry: what all solids of a scene take, at most kMaxNearQuads.
 uint32_t nearSolidQuads(uint64_t solids);
 
-/// How many entries a snapshot begins with, and these as the device stores them. Before the first list of neighbors any solid may be near
-/// any particle.
-size_t firstNearSolids(const FluidSnapshot& snapshot);
+/// How many entries a fluid that continues from a snapshot begins with, and these as the device stores them. Before the first list of
+/// neighbors any solid may be near any particle.
+size_t nearSolidCount(const FluidSnapshot& snapshot);
 std::vector<uint32_t> layOutNearSolids(const FluidSnapshot& snapshot, uint32_t quads);
 /// The other way. `words`: whole entries.
 std::vector<NearSolids> gatherNearSolids(std::span<const uint32_t> words, uint32_t quads);

@@ -191,7 +191,7 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   stageConcentrations(s.concentration, s.fluid);
   staging_->add(slotOf(FluidArray::Control), s.control.data(), s.control.size() * 4);
   std::vector<uint32_t> sums = s.sums;
-  if (setup.params.solidCount > 0) sums[offsetof(FluidSums, nearSolids) / 4] = static_cast<uint32_t>(firstNearSolids(s));
+  if (setup.params.solidCount > 0) sums[offsetof(FluidSums, nearSolids) / 4] = static_cast<uint32_t>(nearSolidCount(s));
   staging_->add(slotOf(FluidArray::Sums), sums.size() * 4, bytesOf(sums));
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);

@@ -30,6 +30,15 @@ class CountedMemory : public ::testing::Test {
     device->beginFrame({1, 0});
     scene.fluid.spacing = 0.1;
   }
+  /// With limits as NVIDIA's driver has them; modelled.
+  void borrowLargeDevice(uint64_t heapBytes) {
+    vulkan.properties.storageBufferRange = 0xFFFFFFFF;
+    vulkan.properties.maxAllocation = 0xFFE00000;
+    vulkan.properties.maxTexelBufferElements = 1u << 27;
+    vulkan.properties.heapBytes = heapBytes;
+    device = *Device::borrow(vulkan.host());
+    device->beginFrame({1, 0});
+  }
   NullVulkan vulkan;
   std::optional<Device> device;
   Scene scene;
@@ -158,25 +167,14 @@ TEST_F(CountedMemory, FollowsTheBudget) {
 }
 
 TEST_F(CountedMemory, ListsOfManySolidsFitTexelViews) {
-  vulkan.properties.storageBufferRange = 0xFFFFFFFF;
-  vulkan.properties.maxAllocation = 0xFFE00000;
-  vulkan.properties.maxTexelBufferElements = 1u << 27;
-  vulkan.properties.heapBytes = 400'000'000'000;
-  device = *Device::borrow(vulkan.host());
-  device->beginFrame({1, 0});
+  borrowLargeDevice(400'000'000'000);
   scene.domain = Domain{};
   for (int k = 0; k < 23; ++k) scene.solids.push_back(Solid{.shape = SphereShape{{0, 0, 0}, 0.5}});
   EXPECT_EQ(maxParticles(*device, scene), (1u << 27) / 4) << "four texels a particle";
 }
 
-// Limits as NVIDIA's driver has them; modelled.
 TEST_F(CountedMemory, HoldsTwentyMillionParticlesOn24Gigabytes) {
-  vulkan.properties.storageBufferRange = 0xFFFFFFFF;
-  vulkan.properties.maxAllocation = 0xFFE00000;
-  vulkan.properties.maxTexelBufferElements = 1u << 27;
-  vulkan.properties.heapBytes = 24'000'000'000;
-  device = *Device::borrow(vulkan.host());
-  device->beginFrame({1, 0});
+  borrowLargeDevice(24'000'000'000);
   scene.domain = Domain{};
   scene.solids.push_back(Solid{.shape = SphereShape{{0, 0, 0}, 0.5}});
   constexpr uint32_t kParticles = 20'000'000;
