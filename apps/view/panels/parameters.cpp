@@ -54,11 +54,15 @@ class KeyField {
   void draw(uint64_t value) { whole(value); }
   void draw(const std::optional<double>& value) {
     bool automatic = !value;
-    if (ImGui::Checkbox("auto", &automatic)) request(automatic ? "\"auto\"" : text(middle()));
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float row = width(), word = style.ItemInnerSpacing.x + ImGui::CalcTextSize("auto").x;
+    const float besideBox = row - ImGui::GetFrameHeight() - style.ItemSpacing.x;
+    const bool named = automatic || besideBox - word >= 1.5f * narrowest();  // else the number needs the place of the word
+    if (ImGui::Checkbox(named ? "auto###auto" : "###auto", &automatic)) request(automatic ? "\"auto\"" : text(middle()));
     if (automatic) return;
-    const float taken = ImGui::GetItemRectSize().x + ImGui::GetStyle().ItemSpacing.x;
+    if (!named && ImGui::IsItemHovered()) ImGui::SetTooltip("auto");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(std::max(width() - taken, narrowest()));
+    ImGui::SetNextItemWidth(std::max(besideBox - (named ? word : 0), narrowest()));
     draw(value.value_or(0));
   }
   void draw(const std::string& value) { choice(value); }
@@ -77,7 +81,7 @@ class KeyField {
   bool isChanged() const { return board_.session.isChanged(key_); }
   std::string unit() const { return info_.unit.empty() ? "" : " [" + std::string(info_.unit) + "]"; }
   std::string label() const { return std::string(info_.key) + unit() + (isLive() ? "" : " *"); }
-  static float narrowest() { return 2.5f * ImGui::GetFontSize(); }
+  static float narrowest() { return 2 * ImGui::GetFontSize(); }
   /// Of the field; less where the label is long, so that the panel shows all of it.
   float width() const {
     const ImGuiStyle& style = ImGui::GetStyle();
