@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/words.hpp"
+#include "model/scene_facts.hpp"
 #include "rill/version.hpp"
 
 namespace rill::capture {
@@ -216,7 +217,7 @@ std::vector<Figure> Record::figures() const {
     addComponents("bodies.momentum", bodies.momentum, "kg m/s", figures);
     figures.push_back({"bodies.stopped", double(bodies.stopped), ""});
   }
-  if (scene_->solver.sleep && scene_->fluids.size() < 2) figures.push_back({"sleeping", double(last.sleeping.value_or(0)), ""});
+  if (maySleep(*scene_)) figures.push_back({"sleeping", double(last.sleeping.value_or(0)), ""});
   if (scene_->look.whitewater) {
     const WhitewaterStats white = last.whitewater.value_or(WhitewaterStats{});
     for (const auto& [name, count] : {std::pair{"spray", white.spray},

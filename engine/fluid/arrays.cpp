@@ -4,9 +4,9 @@
 
 #include "fluid/fluids.hpp"
 #include "fluid/near_solids.hpp"
-#include "fluid/sleep.hpp"
 #include "fluid/steps.hpp"
 #include "fluid/viscosity.hpp"
+#include "model/scene_facts.hpp"
 #include "shape/contact_points.hpp"
 #include "shared/region_records.h"
 #include "shared/surface_tension.h"

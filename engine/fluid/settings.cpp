@@ -15,6 +15,7 @@
 #include "fluid/steps.hpp"
 #include "fluid/tension.hpp"
 #include "fluid/viscosity.hpp"
+#include "model/scene_facts.hpp"
 #include "shape/pose.hpp"
 #include "shared/diffusion_steps.h"
 #include "shared/surface_tension.h"

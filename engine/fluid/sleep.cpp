@@ -8,7 +8,7 @@
 #include "fill/mouth.hpp"
 #include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
-#include "fluid/stability_limits.hpp"
+#include "model/scene_facts.hpp"
 
 namespace rill {
 namespace {
@@ -62,8 +62,6 @@ std::vector<Interval> merged(std::vector<Interval> all) {
 }
 
 }  // namespace
-
-bool maySleep(const Scene& scene) { return scene.solver.sleep && scene.fluids.size() < 2 && strongestGravity(scene) > 0; }
 
 void addSleep(const Scene& scene, double room, FluidSetup& setup) {
   if (!scene.solver.sleep) return;

@@ -9,9 +9,6 @@ namespace rill {
 
 constexpr size_t kRegionWords = sizeof(RegionRecord) / 4;  ///< a region, of FluidSnapshot::regions
 
-/// Whether the scene asks for sleep, and its fluid is one that can.
-bool maySleep(const Scene& scene);
-
 /// Sets what shaders/fluid/sleep.glsl needs, behind the gravity schedule, if the scene asks for sleep. `room`: m, the longest extent of the
 /// fluid's room. Call it after the schedule is set.
 void addSleep(const Scene& scene, double room, FluidSetup& setup);

@@ -7,6 +7,7 @@
 #include "core/vector_math.hpp"
 #include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
+#include "model/scene_facts.hpp"
 #include "shared/fluid_records.h"
 #include "sph/jacobi_limit.hpp"
 #include "sph/start_pressure.hpp"
@@ -73,18 +74,6 @@ double stableStepOf(const SmoothingKernel& kernel, const StabilityLimits& limits
 }
 
 }  // namespace
-
-double strongestGravity(const Scene& scene) {
-  double most = length(scene.gravity);
-  for (const GravityChange& change : scene.gravity_changes) most = std::max(most, length(change.value));
-  return most;
-}
-
-double strongestGravity(const Scene& scene, int axis) {
-  double most = std::abs(scene.gravity[axis]);
-  for (const GravityChange& change : scene.gravity_changes) most = std::max(most, std::abs(change.value[axis]));
-  return most;
-}
 
 double columnHead(const Scene& scene, const Double3& extent) {
   double head = 0;

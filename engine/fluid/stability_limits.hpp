@@ -11,10 +11,6 @@ namespace rill {
 /// Mean compression by its own weight at which one iteration is stable. 0.007 held, 0.013 exploded (dam10k without warm start).
 inline constexpr double kStableError = 0.0055;
 
-/// m/s^2, of the whole schedule.
-double strongestGravity(const Scene& scene);
-/// Along one axis.
-double strongestGravity(const Scene& scene, int axis);
 /// m^2/s^2: gravity times the height of a column as high as `extent` (m), which sets its pressure.
 double columnHead(const Scene& scene, const Double3& extent);
 

@@ -9,6 +9,7 @@
 #include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/stability_limits.hpp"
+#include "model/scene_facts.hpp"
 
 namespace rill {
 namespace {

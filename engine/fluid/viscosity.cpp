@@ -7,7 +7,7 @@
 #include "fluid/boundaries.hpp"
 #include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
-#include "fluid/stability_limits.hpp"
+#include "model/scene_facts.hpp"
 #include "shared/shear_viscosity.h"
 #include "shared/viscosity_steps.h"
 #include "sph/shear_viscosity.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/scene_facts.hpp"
 #include "shape/records.hpp"
 #include "views/bounds.hpp"
 #include "views/color_map.hpp"
@@ -168,7 +169,7 @@ ParticleScene particleScene(const Scene& scene, const ParticleSet& particles, co
     const Float3 color = given ? Float3{float(given->x), float(given->y), float(given->z)} : fluidColor(k);
     record.fluids[k] = {color.x, color.y, color.z, 1};
   }
-  if (scene.solver.sleep && scene.fluids.size() < 2) record.asleep = {0.18F, 0.18F, 0.18F, 1};
+  if (maySleep(scene)) record.asleep = {0.18F, 0.18F, 0.18F, 1};
   out.speed_max = roundNicely(fallSpeed(scene, particles));
   out.compression_max = scene.solver.tolerance > 0 ? roundNicely(std::clamp(10 * scene.solver.tolerance, 0.001, 0.2)) : 0.01;
   return out;

@@ -33,7 +33,7 @@ vec3 fluidColor(uint i) {
 
 vec3 particleColor(uint i) {
   const vec4 v = velocity[i];
-  const bool asleep = scene.asleep.w > 0.0 && v.xyz == vec3(0.0);  // what is awake always moves a little
+  const bool asleep = scene.asleep.w > 0.0 && view.time > 0.0 && v.xyz == vec3(0.0);  // what is awake always moves a little
   if (view.coloring == kByFluid) {
     const vec3 own = fluidColor(i);
     return asleep ? mix(own, scene.asleep.rgb, 0.5) : own;

@@ -104,7 +104,7 @@ TEST(ParticleScene, ScalesAreFixedByTheScene) {
   EXPECT_DOUBLE_EQ(particleScene(scene, particles).compression_max, 0.01);
 }
 
-TEST(ParticleScene, SeveralFluidsHaveNoColorOfSleep) {
+TEST(ParticleScene, OnlyFluidsThatMaySleepHaveItsColor) {
   Scene scene;
   scene.fluid.spacing = 0.1;
   const ParticleSet particles{.positions = {{0, 0, 0}}, .velocities = {{0, 0, 0}}};
@@ -113,6 +113,11 @@ TEST(ParticleScene, SeveralFluidsHaveNoColorOfSleep) {
   EXPECT_EQ(particleScene(scene, particles).scene.asleep.w, 1);
   scene.fluids = {{.name = "water"}, {.name = "oil"}};
   EXPECT_EQ(particleScene(scene, particles).scene.asleep.w, 0);
+  scene.fluids.clear();
+  scene.gravity = {0, 0, 0};
+  EXPECT_EQ(particleScene(scene, particles).scene.asleep.w, 0);
+  scene.gravity_changes = {{.at = 1, .value = {0, -9.81, 0}}};
+  EXPECT_EQ(particleScene(scene, particles).scene.asleep.w, 1);
 }
 
 TEST(ParticleView, RejectsEmptyAndTooLargePictures) {

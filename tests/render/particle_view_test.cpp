@@ -350,6 +350,17 @@ TEST_F(ParticleViewOnGpu, ColorsShowSpeedAndCompression) {
   EXPECT_EQ(difference(take({{0, 0, -4, nan, 0, 0, nan}}, kSize, kSize, 0, compression), rest), 0u);
 }
 
+TEST_F(ParticleViewOnGpu, DrawsNothingAsleepBeforeTheFirstStep) {
+  constexpr uint32_t kSize = 64;
+  scene_.gravity[1] = -9.81;
+  const std::vector<Particle> still{{0, 0, -4}};
+  const Picture awake = take(still, kSize, kSize);
+  scene_.solver.sleep = true;
+  EXPECT_EQ(difference(take(still, kSize, kSize), awake), 0u);
+  const uint32_t asleep = take(still, kSize, kSize, 1).at(kSize / 2, kSize / 2);
+  EXPECT_NEAR(asleep & 255, (asleep >> 16) & 255, 2) << "gray";
+}
+
 // Unlit particles have the exact color of the map; everything else is darker than the map.
 TEST_F(ParticleViewOnGpu, UnlitColorsMatchTheMap) {
   constexpr uint32_t kSize = 96;
