@@ -16,6 +16,7 @@
 namespace rill::reference {
 
 inline glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
+inline Double3 triple(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 /// Where a body is and how fast it moves, relative to the origin of the positions.
 struct BodyMotion {

@@ -8,10 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/overloaded.hpp"
-#include "reference/neighbors.hpp"
 #include "shared/fluid_records.h"
-#include "shared/pair_hash.h"
 #include "sph/liquid_scale.hpp"
 
 namespace rill::reference {
@@ -175,84 +172,8 @@ void ReferenceSolver::updateRestFactor() {
   restFactor_ = 1 - std::pow(fraction, 4);
 }
 
-ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
-  const glm::dvec3 r = state.predicted[i] - state.predicted[j];
-  const double length = glm::length(r), h = kernel_.h();
-  Pair pair{.j = j, .offset = r, .value = kernel_.value(length)};
-  if (length >= kCoincidentDistance * h) {
-    pair.gradient = kernel_.gradientOverR(length) * r;
-  } else {
-    const uint32_t a = state.id[i], b = state.id[j];
-    pair.apart = glm::normalize(glm::dvec3(shared::pairDirection(a, b, 0), shared::pairDirection(a, b, 1), shared::pairDirection(a, b, 2)));
-    pair.gradient = kernel_.gradientOverR(kCoincidentGradient * h) * kCoincidentGradient * h * pair.apart;
-  }
-  return pair;
-}
-
 double ReferenceSolver::inverseMass(size_t i) const {
   return settings.fluids.empty() ? 1 : settings.density / settings.fluids[state.fluid[i]].density;
-}
-
-double ReferenceSolver::densityScale() const {
-  return settings.meltingTime > 0 ? std::lerp(1.0, liquidScale_, std::min(time_ / settings.meltingTime, 1.0)) : 1;
-}
-
-void ReferenceSolver::density() {
-  const Neighbors found = findNeighbors(state.predicted, kernel_.h());
-  const std::vector<Pose> solids = poses(time_, step_);
-  first_.assign(1, 0);
-  neighborCount_.resize(size());
-  pairs_.clear();
-  densityRatio_.resize(size());
-  denominator_.resize(size());
-  boundary_.resize(size());
-  boundaryPlace_ = state.predicted;
-  densityPoses_ = solids;
-  if (firstIteration_) bodies_.beginStiffness();
-  if (!settings.solids.empty()) scale_.resize(size());
-  const double rest = kernel_.restGradientSum(), scale = densityScale();
-  for (uint32_t i = 0; i < size(); ++i) {
-    boundary_[i] = boundaryOf(state.predicted[i], solids);
-    double ratio = kernel_.value(0), squares = 0;
-    const double own = inverseMass(i);
-    glm::dvec3 sum = vec(boundary_[i].gradient);
-    for (const uint32_t j : found.of(i)) pairs_.push_back(makePair(i, j));
-    neighborCount_[i] = static_cast<uint32_t>(found.of(i).size());
-    addImages(i, found.of(i));
-    first_.push_back(static_cast<uint32_t>(pairs_.size()));
-    for (const Pair& pair : pairs(i)) {
-      ratio += pair.value;
-      sum += pair.gradient;
-      squares += inverseMass(pair.j) * glm::dot(pair.gradient, pair.gradient);
-    }
-    densityRatio_[i] = scale * ratio + boundary_[i].value;
-    const glm::dmat3 tangential = tangentialScale(i);
-    if (!scale_.empty()) scale_[i] = tangential;
-    double all = own * glm::dot(sum, tangential * sum) + squares * (tangential[0].x + tangential[1].y + tangential[2].z) / 3;
-    if (bodies_.any())
-      forEachSample(state.predicted[i], solids, [&](size_t n, const SolidSample& displaced, const Image& image) {
-        const double root = bodies_.root(n, image.of(state.predicted[i]), vec(displaced.gradient));
-        all += root * bodies_.stiffness(n);
-        if (firstIteration_) bodies_.addRoot(n, root, mass());
-      });
-    denominator_[i] = std::max(all + own * settings.regularization * rest, kMinDenominator * rest);
-  }
-}
-
-void ReferenceSolver::multipliers(bool firstIteration) {
-  const double omega = std::lerp(settings.relaxation, settings.relaxationAtRest, restFactor_),
-               kappa = std::lerp(settings.warmStart, settings.warmStartAtRest, restFactor_);
-  for (size_t i = 0; i < size(); ++i) {
-    if (firstIteration) lambda_[i] = state.warm[i];
-    delta_[i] = -omega * (densityRatio_[i] - 1) / denominator_[i];
-    const double lambda = std::min(0.0, lambda_[i] + delta_[i]);
-    lambdaChange_[i] = lambda - lambda_[i];
-    lambda_[i] = lambda;
-    if (!firstIteration) continue;
-    const double gain = kappa * (delta_[i] > 0 ? settings.warmRelease : 1.0);
-    state.warm[i] = std::min(0.0, state.warm[i] + gain * delta_[i]);
-    if (std::isfinite(settings.warmLimit)) state.warm[i] = std::max(state.warm[i], -settings.warmLimit * step_ * step_);
-  }
 }
 
 double ReferenceSolver::artificialPressureTerm(double value, double push) const {
@@ -336,48 +257,6 @@ void ReferenceSolver::moveBodies(double dt) {
   }
   applied_ = impulses_;
   bodies_.react(since, dt);
-}
-
-double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
-  return 2 * viscosity * dt / (settings.density * kernel_.secondMoment());
-}
-
-void ReferenceSolver::dampNoise(double dt) {
-  const double c = std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxNoiseDamping});
-  add(-c, meanDifference(meanDifference(state.velocity)));
-}
-
-std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v) const {
-  std::vector<glm::dvec3> difference(size(), glm::dvec3(0));
-  for (size_t i = 0; i < size(); ++i)
-    for (const Pair& pair : pairs(i))
-      if (state.fluid[pair.j] == state.fluid[i]) difference[i] += pair.value * (pair.sign * v[pair.j] - v[i]);
-  return difference;
-}
-
-void ReferenceSolver::add(double factor, const std::vector<glm::dvec3>& change) {
-  for (size_t i = 0; i < size(); ++i) state.velocity[i] += factor * change[i];
-}
-
-void ReferenceSolver::vorticity(double dt) {
-  const std::vector<glm::dvec3> v = state.velocity;
-  const double h = kernel_.h();
-  for (size_t i = 0; i < size(); ++i) {
-    curl_[i] = glm::dvec3(0);
-    for (const Pair& pair : neighbors(i)) curl_[i] += glm::cross(pair.gradient, v[pair.j] - v[i]);
-  }
-  for (size_t i = 0; i < size(); ++i) {
-    const double strength = glm::length(curl_[i]);
-    if (strength <= 0) continue;
-    glm::dvec3 eta(0);
-    for (const Pair& pair : neighbors(i)) eta += (glm::length(curl_[pair.j]) - strength) * pair.gradient;
-    const glm::dvec3 toward = eta / (glm::length(eta) + 0.001 * strength / h);
-    state.velocity[i] += dt * settings.vorticity * h * strength * glm::cross(toward, curl_[i]);
-  }
-}
-
-void ReferenceSolver::drag(double dt) {
-  for (glm::dvec3& v : state.velocity) v *= std::exp(-settings.drag * dt);
 }
 
 void ReferenceSolver::predict(double dt, double dtNext) {
