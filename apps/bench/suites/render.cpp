@@ -1,16 +1,13 @@
 // Surface reconstruction: time and error of methods and settings on analytic shapes.
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
-#include <numbers>
 #include <optional>
 
-#include "bench/pareto.hpp"
 #include "bench/suites/suites.hpp"
 #include "bench/suites/surface_aims.hpp"
+#include "bench/suites/surface_costs.hpp"
+#include "bench/suites/surface_pictures.hpp"
 #include "bench/suites/surface_variants.hpp"
-#include "bench/surface_errors.hpp"
 #include "bench/workbench.hpp"
 #include "render/fluid_renderer_impl.hpp"
 #include "views/scenery.hpp"
@@ -18,63 +15,10 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kFov = 40;         // degrees
-constexpr double kRadius = 0.75;    // sphere radius in spacings, for the pixel radius in picture names
 constexpr double kTravel = 0.25;    // displacement of the moving wave per frame, spacings
 constexpr double kWavelength = 18;  // its wavelength, spacings
 constexpr double kFlickerFrame_s = 1.0 / 60;
 constexpr double kPixelsPerPart = 2e5;  // of progress
-
-constexpr const char* kDefaultSettings = "default settings";
-
-struct Picture {
-  std::string name;
-  Eye eye;
-  Jitter jitter = {};
-  bool tilted = false;
-  bool settings = true;  ///< also measures variants of the settings
-};
-
-Picture picture(uint32_t width, uint32_t height, double radius) {
-  const double tanHalfFovY = std::tan(0.5 * kFov * std::numbers::pi / 180);
-  char name[64];
-  std::snprintf(name, sizeof name, "%ux%u r %g", width, height, radius);
-  return {name, {width, height, tanHalfFovY * width / height, tanHalfFovY, kRadius * height / (2 * tanHalfFovY * radius)}};
-}
-
-std::vector<Picture> pictures(bool quick) {
-  Picture main = picture(1024, 768, 10);
-  if (quick) {
-    main.settings = false;
-    return {main, picture(640, 360, 10)};
-  }
-  std::vector<Picture> all{main};
-  for (const double radius : {4.0, 25.0}) all.push_back(picture(1024, 768, radius));
-  Picture noisy = main, tilted = main;
-  noisy.name += " noisy";
-  noisy.jitter = {0.35, 0.2};
-  tilted.name += " tilted";
-  tilted.tilted = true;
-  all.push_back(std::move(noisy));
-  all.push_back(std::move(tilted));
-  for (const auto& [w, h] : {std::pair{640u, 360u}, std::pair{1280u, 720u}, std::pair{1920u, 1080u}}) all.push_back(picture(w, h, 10));
-  for (const double radius : {3.0, 30.0}) {
-    all.push_back(picture(1024, 768, radius));
-    all.back().settings = false;
-  }
-  return all;
-}
-
-std::vector<std::unique_ptr<Shape>> shapesOf(const Picture& picture, bool quick) {
-  const Eye& eye = picture.eye;
-  if (picture.tilted) return tiltedShapes(eye.distance, eye.tanHalfFovX, eye.tanHalfFovY);
-  auto all = shapes(eye.distance, eye.tanHalfFovX, eye.tanHalfFovY);
-  if (quick) std::erase_if(all, [](const auto& shape) { return shape->name() == "waves 30" || shape->name() == "waves 60"; });
-  return all;
-}
-
-/// Shapes of the Pareto fronts: corner and sheets are excluded, since edges dominate their errors.
-bool smooth(const Shape& shape) { return shape.name() != "corner" && !shape.name().ends_with("sheet"); }
 
 /// A simulation run, which has no reference surface.
 struct Recorded {
@@ -93,12 +37,6 @@ struct Points {
   Buffer positions;
   uint32_t count = 0;
   double spacing = 1;
-};
-
-/// Cost and error of a variant, summed over shapes or frames.
-struct Sum {
-  const SurfaceVariant* variant = nullptr;
-  double ms = 0, mean = 0, p95 = 0, count = 0;
 };
 
 class Render {
@@ -258,7 +196,7 @@ class Render {
   /// Measures every variant on every shape of a picture.
   Expected<void> measure(const Picture& picture) {
     const FluidView view = viewOf(picture.eye);
-    std::vector<Sum> sums;
+    std::vector<SurfaceCost> sums;
     for (const auto& shape : shapesOf(picture, bench_.quick())) {
       const auto variants = selectedVariants(picture, *shape);
       if (variants.empty()) continue;
@@ -291,10 +229,12 @@ class Render {
                                   number(e.iou, 4), number(change)});
         }
         report_.results.push_back(std::move(json));
-        if (smooth(*shape)) add(sums, variant, median(*ms), e.mean, e.p95);
+        if (smooth(*shape)) addCost(sums, variant, median(*ms), e.mean, e.p95);
       }
     }
-    if (picture.settings) report(picture.name + ": mean of plane, waves and balls", "mean error of the normal (degrees)", sums);
+    if (picture.settings)
+      tabulateCosts(picture.name + ": mean of plane, waves and balls", "mean error of the normal (degrees)", sums, variants_.front(),
+                    report_);
     return {};
   }
 
@@ -349,7 +289,7 @@ class Render {
   Expected<void> flicker(const std::string& name, const Eye& eye, const FluidView& view, std::span<const Points> points,
                          std::span<const SurfaceVariant* const> variants,
                          const std::function<double(size_t, const RenderedSurface&, const RenderedSurface&)>& change) {
-    std::vector<Sum> sums;
+    std::vector<SurfaceCost> sums;
     for (const SurfaceVariant* variant : variants) {
       if (bench_.stopped()) break;
       bench_.step(name + ", " + variant->name(), partsOf(eye));
@@ -376,49 +316,10 @@ class Render {
                                  {"particles", points[0].count},
                                  {"ms", sampleStatistics(ms)},
                                  {"flicker_deg", mean}});
-      add(sums, variant, median(ms), mean, *std::ranges::max_element(changes));
+      addCost(sums, variant, median(ms), mean, *std::ranges::max_element(changes));
     }
-    report(name + ": change between frames", "mean change of the normal (degrees)", sums);
+    tabulateCosts(name + ": change between frames", "mean change of the normal (degrees)", sums, variants_.front(), report_);
     return {};
-  }
-
-  static void add(std::vector<Sum>& sums, const SurfaceVariant* variant, double ms, double mean, double p95) {
-    auto found = std::ranges::find(sums, variant, &Sum::variant);
-    if (found == sums.end()) found = sums.insert(sums.end(), Sum{variant});
-    found->ms += ms;
-    found->mean += mean;
-    found->p95 += p95;
-    ++found->count;
-  }
-
-  /// Adds a table and a diagram of time against error with the Pareto front; default settings are emphasized.
-  void report(const std::string& title, const std::string& what, const std::vector<Sum>& sums) {
-    if (sums.empty()) return;
-    std::vector<CostError> points;
-    for (const Sum& sum : sums) points.emplace_back(sum.ms / sum.count, sum.mean / sum.count);
-    const std::vector<size_t> front = paretoFront(points);
-    Table table{title, {"method", "ms", "degrees", "p95 or worst frame", "Pareto front"}, {}, ""};
-    for (size_t k = 0; k < sums.size(); ++k)
-      table.rows.push_back({sums[k].variant->name(), number(points[k].first), number(points[k].second), number(sums[k].p95 / sums[k].count),
-                            std::ranges::find(front, k) != front.end() ? "yes" : ""});
-    report_.tables.push_back(std::move(table));
-
-    Plot plot{title, "ms", what, true, true, {}};
-    plot.series.push_back({kDefaultSettings, Series::Style::Points, {}, {}, true});
-    for (size_t k = 0; k < sums.size(); ++k) {
-      const SurfaceVariant& variant = *sums[k].variant;
-      const std::string name = variant.isDefault() ? kDefaultSettings : variant.family;
-      auto found = std::ranges::find(plot.series, name, &Series::name);
-      if (found == plot.series.end()) found = plot.series.insert(plot.series.end(), {name, Series::Style::Points, {}, {}});
-      found->points.push_back(points[k]);
-      found->labels.push_back(&variant == &variants_.front() ? variant.family + " (default)"
-                              : variant.isDefault()          ? variant.family
-                                                             : variant.setting);
-    }
-    Series line{"Pareto front", Series::Style::Lines, {}, {}};
-    for (const size_t k : front) line.points.push_back(points[k]);
-    plot.series.push_back(std::move(line));
-    report_.plots.push_back(std::move(plot));
   }
 
   Bench& bench_;
