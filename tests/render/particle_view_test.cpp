@@ -1,103 +1,13 @@
 // Pictures of particles against geometry in double precision.
-#include "views/particle_view.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <optional>
 #include <random>
 
-#include "support/gpu_test.hpp"
+#include "render/particle_view_rig.hpp"
 
 namespace rill::test {
-namespace {
-
-struct Particle {
-  float x, y, z;
-  float vx = 0, vy = 0, vz = 0, density = 1;
-  float fluid = 0;
-};
-
-struct Picture {
-  uint32_t width = 0, height = 0;
-  std::vector<uint32_t> pixels;
-  uint32_t at(uint32_t x, uint32_t y) const { return pixels[size_t{y} * width + x]; }
-};
-
-constexpr double kTangent = 0.5;  // of half the vertical field of view
-const double kFov = 2 * std::atan(kTangent) * 180 / std::numbers::pi;
-
-class ParticleViewOnGpu : public GpuTest {
- protected:
-  /// Looks along -z from the origin; nothing but particles, unless the scene says otherwise.
-  ParticleViewOnGpu() {
-    scene_.fluid.spacing = 1;
-    scene_.gravity[1] = 0;
-    camera_.eye[0] = camera_.eye[1] = camera_.eye[2] = 0;
-    camera_.target[2] = -10;
-    camera_.fov_y_deg = kFov;
-  }
-
-  /// The picture, taken twice in one command buffer, where synchronization validation sees both: they must be the same.
-  Picture take(const std::vector<Particle>& particles, uint32_t width, uint32_t height, double time = 0,
-               ParticleColor color = ParticleColor::Speed, bool unlit = false) {
-    ParticleSet start;
-    start.origin = origin_;
-    std::vector<Float4> positions, velocities;
-    for (const Particle& p : particles) {
-      positions.push_back({p.x, p.y, p.z, p.fluid});
-      velocities.push_back({p.vx, p.vy, p.vz, p.density});
-      start.positions.push_back({p.x, p.y, p.z});
-    }
-    if (start_) start.positions = {*start_};
-    auto view = ParticleView::create(device(), scene_, start);
-    EXPECT_TRUE(view) << view.error().message;
-    if (!view) return {};
-    Buffer position, velocity;
-    if (!particles.empty()) {
-      position = upload("position", positions);
-      velocity = upload("velocity", velocities);
-    }
-    Picture picture{width, height, {}};
-    Graph graph;
-    FluidState state;
-    state.capacity = static_cast<uint32_t>(particles.size());
-    state.spacing = static_cast<float>(scene_.fluid.spacing);
-    state.origin = origin_;
-    if (!particles.empty()) {
-      state.position = graph.import("position", importOf(position));
-      state.velocity = graph.import("velocity", importOf(velocity));
-    }
-    Ticket tickets[2];
-    for (Ticket& ticket : tickets) ticket = graph.readback((*view)->addTo(graph, state, camera_, {width, height, color, unlit}, time));
-    run(graph);
-    picture.pixels = read<uint32_t>(graph, tickets[0]);
-    EXPECT_EQ(picture.pixels.size(), size_t{width} * height);
-    EXPECT_TRUE(read<uint32_t>(graph, tickets[1]) == picture.pixels) << "two runs differ";
-    return picture;
-  }
-
-  /// Pixels that differ between two pictures of one size.
-  static size_t difference(const Picture& a, const Picture& b) {
-    size_t count = 0;
-    for (size_t k = 0; k < a.pixels.size(); ++k) count += a.pixels[k] != b.pixels[k] ? 1 : 0;
-    return count;
-  }
-
-  /// How far inside a sphere's outline the ray of a pixel runs, as a fraction of its radius: 1 through the center, negative outside.
-  static double inside(const Particle& p, double radius, double x, double y, uint32_t width, uint32_t height) {
-    const double focal = 0.5 * height / kTangent;
-    const Double3 d = {(x - 0.5 * width) / focal, (0.5 * height - y) / focal, -1};
-    const double t = (p.x * d[0] + p.y * d[1] + p.z * d[2]) / (d[0] * d[0] + d[1] * d[1] + 1);
-    return 1 - std::hypot(p.x - t * d[0], p.y - t * d[1], p.z - t * d[2]) / radius;
-  }
-
-  Scene scene_;
-  CameraView camera_;
-  Double3 origin_ = {0, 0, 0};
-  std::optional<Float3> start_;  ///< in place of the particles, where the light's frame must not follow them
-};
+namespace particle_view_test {
 
 TEST_F(ParticleViewOnGpu, OutlinesMatchGeometry) {
   constexpr uint32_t kWidth = 200, kHeight = 120;
@@ -333,89 +243,6 @@ TEST_F(ParticleViewOnGpu, PictureDoesNotDependOnTheOrigin) {
   EXPECT_EQ(difference(take(particles, kSize, kSize), here), 0u);
 }
 
-TEST_F(ParticleViewOnGpu, ColorsShowSpeedAndCompression) {
-  constexpr uint32_t kSize = 64;
-  const uint32_t middle = kSize / 2;
-  const auto channel = [&](const Picture& picture, int k) { return static_cast<int>((picture.at(middle, middle) >> (8 * k)) & 255); };
-  const Picture slow = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize), fast = take({{0, 0, -4, 0, 1, 0, 1}}, kSize, kSize);
-  EXPECT_GT(channel(fast, 0), channel(slow, 0) + 60);
-  EXPECT_GT(channel(slow, 2), 2 * channel(slow, 0)) << "rest is blue";
-  const auto compression = ParticleColor::Compression;
-  const Picture loose = take({{0, 0, -4, 9, 0, 0, 0.5f}}, kSize, kSize, 0, compression),
-                rest = take({{0, 0, -4, 0, 0, 0, 1}}, kSize, kSize, 0, compression);
-  const Picture dense = take({{0, 0, -4, 0, 0, 0, 1.5f}}, kSize, kSize, 0, compression);
-  EXPECT_EQ(difference(loose, rest), 0u) << "expansion counts as none";
-  EXPECT_LT(channel(dense, 1), channel(rest, 1) - 60);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(difference(take({{0, 0, -4, nan, 0, 0, nan}}, kSize, kSize, 0, compression), rest), 0u);
-}
-
-TEST_F(ParticleViewOnGpu, DrawsNothingAsleepBeforeTheFirstStep) {
-  constexpr uint32_t kSize = 64;
-  scene_.gravity[1] = -9.81;
-  const std::vector<Particle> still{{0, 0, -4}};
-  const Picture awake = take(still, kSize, kSize);
-  scene_.solver.sleep = true;
-  EXPECT_EQ(difference(take(still, kSize, kSize), awake), 0u);
-  const uint32_t asleep = take(still, kSize, kSize, 1).at(kSize / 2, kSize / 2);
-  EXPECT_NEAR(asleep & 255, (asleep >> 16) & 255, 2) << "gray";
-}
-
-// Unlit particles have the exact color of the map; everything else is darker than the map.
-TEST_F(ParticleViewOnGpu, UnlitColorsMatchTheMap) {
-  constexpr uint32_t kSize = 96;
-  scene_.domain = Domain{{-3, -0.6, -7}, {3, 2, -1}, 0};
-  scene_.solids.push_back(Solid{SphereShape{{1.4, 0.2, -5}, 0.7}});
-  for (const auto color : {ParticleColor::Speed, ParticleColor::Compression}) {
-    double darkest = 1;
-    for (int k = 0; k <= 16; ++k) {
-      const Float3 c = mapColor(color, k / 16.0);
-      darkest = std::min(darkest, 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
-    }
-    for (const double t : {0.0, 0.3, 0.77, 1.0}) {
-      // The scale's end: see scaleMax(); a scene without gravity has the start's fastest, none here, and so 1 m/s.
-      const float value = static_cast<float>(t * (color == ParticleColor::Speed ? 1 : 0.01));
-      const Particle near{0, 0, -4, 0, value, 0, 1 + value}, aside{-0.9f, 0.3f, -4.6f, 0, value, 0, 1 + value};
-      const Picture picture = take({near, aside}, kSize, kSize, 0, color, true);
-      const Float3 wanted = mapColor(color, t);
-      size_t own = 0, mixed = 0;
-      for (const uint32_t pixel : picture.pixels) {
-        const int r = pixel & 255, g = (pixel >> 8) & 255, b = (pixel >> 16) & 255;
-        if (std::abs(r - srgbByte(wanted.x)) <= 2 && std::abs(g - srgbByte(wanted.y)) <= 2 && std::abs(b - srgbByte(wanted.z)) <= 2)
-          ++own;
-        else if (std::max({r, g, b}) > srgbByte(0.9 * darkest))
-          ++mixed;  // an outline
-      }
-      EXPECT_GT(own, 400u) << t;
-      EXPECT_LT(mixed, own / 3) << t;
-    }
-  }
-}
-
-TEST_F(ParticleViewOnGpu, ColorsOfFluidsAreTheirOwnOrTellThemApart) {
-  constexpr uint32_t kSize = 96;
-  scene_.fluids = {{.name = "water"}, {.name = "oil", .color = Double3{0.9, 0.6, 0.1}}, {.name = "sirup"}};
-  const Float3 wanted[] = {fluidColor(0), {0.9f, 0.6f, 0.1f}, fluidColor(2)};
-  for (size_t k = 0; k < 3; ++k) {
-    Particle particle{0, 0, -4, 3, 0, 0, 1.2f};
-    particle.fluid = float(k);
-    const uint32_t pixel = take({particle}, kSize, kSize, 0, ParticleColor::Fluid, true).at(kSize / 2, kSize / 2);
-    EXPECT_NEAR(pixel & 255, srgbByte(wanted[k].x), 2) << k;
-    EXPECT_NEAR((pixel >> 8) & 255, srgbByte(wanted[k].y), 2) << k;
-    EXPECT_NEAR((pixel >> 16) & 255, srgbByte(wanted[k].z), 2) << k;
-  }
-}
-
-TEST(FluidColors, DifferInLightnessOrHue) {
-  for (size_t a = 0; a < kMaxFluids; ++a)
-    for (size_t b = 0; b < a; ++b) {
-      const Float3 p = fluidColor(a), q = fluidColor(b);
-      const int apart =
-          std::abs(srgbByte(p.x) - srgbByte(q.x)) + std::abs(srgbByte(p.y) - srgbByte(q.y)) + std::abs(srgbByte(p.z) - srgbByte(q.z));
-      EXPECT_GT(apart, 80) << a << " " << b;
-    }
-}
-
 TEST_F(ParticleViewOnGpu, HandlesTinyAndOddSizes) {
   scene_.domain = Domain{{-1, -1, -5}, {1, 1, -3}, 0};
   for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{3u, 17u}, std::pair{257u, 9u}}) {
@@ -424,5 +251,5 @@ TEST_F(ParticleViewOnGpu, HandlesTinyAndOddSizes) {
   }
 }
 
-}  // namespace
+}  // namespace particle_view_test
 }  // namespace rill::test
