@@ -70,9 +70,6 @@ static Kernel bindByName(Pass& pass, const AnyPipeline* pipeline, std::span<cons
 Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const BoundResource> resources) {
   return bind(pass, pipeline, resources);
 }
-Kernel bindShader(Pass& pass, const GraphicsPipeline* pipeline, std::span<const BoundResource> resources) {
-  return bind(pass, pipeline, resources);
-}
 Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Named> resources) {
   return bindByName(pass, pipeline, resources);
 }

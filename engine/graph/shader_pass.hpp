@@ -66,12 +66,11 @@ struct BoundResource {
 /// Declares what the shader of `pipeline` reads and writes, and binds it, in the order of its bindings. Writing a resource that is given as
 /// `ref` is an error that compile() reports.
 Kernel bindShader(Pass& pass, const ComputePipeline* pipeline, std::span<const BoundResource> resources);
-/// Of a pass with targets, which the pass has declared before.
-Kernel bindShader(Pass& pass, const GraphicsPipeline* pipeline, std::span<const BoundResource> resources);
 
-/// The same by names. Resources that the shader does not name are left alone; one that
-/// it names and that is not given, and a written one given as read-only, are errors that compile() reports.
+/// The same by names. Resources that the shader does not name are left alone; one that it names and that is not given, and a written one
+/// given as read-only, are errors that compile() reports.
 Kernel bindNamed(Pass& pass, const ComputePipeline* pipeline, std::span<const Named> resources);
+/// Of a pass with targets, which the pass has declared before.
 Kernel bindNamed(Pass& pass, const GraphicsPipeline* pipeline, std::span<const Named> resources);
 template <class AnyPipeline>
 Kernel bindNamed(Pass& pass, const AnyPipeline* pipeline, std::initializer_list<Named> resources) {

@@ -47,7 +47,6 @@ class Advances {
   size_t inFlight() const { return pieces_.inFlight(); }         ///< pieces
   bool idle() const { return !open_ && pieces_.starts() == 0; }  ///< no advance is under way
   const AdvanceFigures& last() const { return last_; }
-  const Pacing& pacing() const { return pacing_; }
 
  private:
   bool isComplete() const;

@@ -144,10 +144,6 @@ Expected<void> Context::wait() { return impl_->waitFor(impl_->submitted); }
 
 Expected<void> Context::waitFor(uint64_t frame) { return impl_->waitFor(frame); }
 
-Expected<void> Context::waitUntilInFlight(uint32_t frames) {
-  return impl_->waitFor(impl_->submitted > frames ? impl_->submitted - frames : 0);
-}
-
 std::vector<std::string> Context::takeMessages() {
   const std::lock_guard lock(impl_->messagesMutex);
   return std::exchange(impl_->messages, {});

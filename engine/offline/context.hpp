@@ -70,8 +70,6 @@ class Context {
   Expected<void> wait();
   /// Waits for a submitted frame.
   Expected<void> waitFor(uint64_t frame);
-  /// Waits until at most `frames` submitted frames are unfinished.
-  Expected<void> waitUntilInFlight(uint32_t frames);
 
   /// Warnings and errors of the validation layer since the last call.
   std::vector<std::string> takeMessages();

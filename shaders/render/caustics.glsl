@@ -11,7 +11,7 @@ bool inView(ivec2 texel) { return all(greaterThanEqual(texel, ivec2(0))) && texe
 uint texelIndex(ivec2 texel) { return uint(texel.y) * sun.width + uint(texel.x); }
 
 // Depths as ordered() has them.
-const uint kNoFirst = 0xFFFFFFFFu, kNoLast = 0u;
+const uint kNoFirst = 0xFFFFFFFFu;
 
 // The share of a texel's light that meets the fluid, by the mean of what spheres cover around it. The spheres reach beyond the fluid.
 float coverageOf(float covered) { return clamp(3.2 * (covered - 0.61) + 0.5, 0.0, 1.0); }

@@ -173,8 +173,7 @@ TEST_F(ShaderPass, RejectsNullPipeline) {
   graph.reset();
   graph.pass("count", [&](Pass& pass) {
     const GraphicsPipeline* none = nullptr;
-    const BoundResource one[] = {{.buffer = &counts}};
-    bindShader(pass, none, one);
+    bindNamed(pass, none, {{"counts", counts}});
     return [](Commands&) {};
   });
   EXPECT_EQ(compileError(), expected);

@@ -186,8 +186,6 @@ constexpr Band kBands[] = {
 
 }  // namespace
 
-std::span<const Band> bands() { return kBands; }
-
 const Band* bandOf(std::string_view family, std::string_view figure) {
   for (const Band& band : kBands)
     if (family.starts_with(band.family) && figure == band.figure) return &band;

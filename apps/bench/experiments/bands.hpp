@@ -1,5 +1,4 @@
 #pragma once
-#include <span>
 #include <string_view>
 
 #include "bench/experiments/experiment.hpp"
@@ -15,7 +14,6 @@ struct Band {
   std::string_view unit;    ///< "%", or the unit of the error
   std::string_view reason;  ///< why the band is wider than the aim
 };
-std::span<const Band> bands();
 /// The first matching band, or null.
 const Band* bandOf(std::string_view family, std::string_view figure);
 
