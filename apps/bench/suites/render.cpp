@@ -1,15 +1,13 @@
 // Surface reconstruction: time and error of methods and settings on analytic shapes.
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "bench/suites/suites.hpp"
 #include "bench/suites/surface_aims.hpp"
 #include "bench/suites/surface_costs.hpp"
 #include "bench/suites/surface_pictures.hpp"
+#include "bench/suites/surface_runs.hpp"
 #include "bench/suites/surface_variants.hpp"
-#include "bench/workbench.hpp"
-#include "render/fluid_renderer_impl.hpp"
 #include "views/scenery.hpp"
 
 namespace rill::bench {
@@ -32,13 +30,6 @@ const std::vector<Recorded>& recordings() {
   return all;
 }
 
-/// Particle positions on the device.
-struct Points {
-  Buffer positions;
-  uint32_t count = 0;
-  double spacing = 1;
-};
-
 class Render {
  public:
   explicit Render(Bench& bench) : bench_(bench) {}
@@ -50,6 +41,7 @@ class Render {
     auto renderer = FluidRenderer::create(workbench_->device());
     if (!renderer) return renderer.error();
     renderer_ = std::move(*renderer);
+    runs_.emplace(*workbench_, *renderer_, std::max(3u, bench_.options().repeat));
     auto bilateral = Bilateral::create(workbench_->device());
     if (!bilateral) return bilateral.error();
     variants_ = surfaceVariants(*bilateral, bench_.quick());
@@ -87,7 +79,6 @@ class Render {
   }
   Picture flickerPicture() const { return bench_.quick() ? picture(640, 360, 10) : picture(1024, 768, 10); }
   int frames() const { return bench_.quick() ? 3 : 8; }
-  uint32_t samples() const { return std::max(3u, bench_.options().repeat); }
   static size_t partsOf(const Eye& eye) { return std::max<size_t>(1, static_cast<size_t>(eye.width * eye.height / kPixelsPerPart)); }
 
   std::vector<const SurfaceVariant*> selectedVariants(const std::string& caseName) const {
@@ -102,95 +93,12 @@ class Render {
     return out;
   }
 
-  Expected<Points> upload(std::span<const Float4> positions, double spacing) {
-    auto buffer = workbench_->upload("positions", positions);
-    if (!buffer) return buffer.error();
-    return Points{std::move(*buffer), static_cast<uint32_t>(positions.size()), spacing};
-  }
-  Expected<Points> upload(const Shape& shape, const Jitter& jitter, uint32_t seed) {
-    std::vector<Float4> positions;
-    for (const Float3& p : shape.particles(jitter, seed)) positions.push_back({p.x, p.y, -p.z, 0});
-    return upload(positions, 1);
-  }
   static FluidView viewOf(const Eye& eye) {
     CameraView camera;
     camera.eye[2] = 0;
     camera.target[2] = -eye.distance;
     camera.fov_y_deg = kFov;
     return fluidView(camera, eye.width, eye.height, 1);
-  }
-
-  SurfaceBuffers declare(Graph& graph, const Points& points, const SurfaceVariant& variant, const FluidView& view, bool complete) {
-    FluidState fluid;
-    fluid.position = importWhole(graph, "positions", points.positions);
-    fluid.capacity = points.count;
-    fluid.spacing = static_cast<float>(points.spacing);
-    surface::SurfacePush camera = implOf(*renderer_).camera(fluid, view);
-    camera.step = sampleStep(camera, fluid.spacing, view.focus_m, variant.settings.samples);
-    return implOf(*renderer_).surface.addTo(graph, fluid, camera, variant.method, complete, view.focus_m, variant.settings);
-  }
-
-  /// Renders and reads back a surface; `ms`: time from recording to completion.
-  Expected<RenderedSurface> draw(const Points& points, const SurfaceVariant& variant, const FluidView& view, double* ms = nullptr) {
-    auto pixels = workbench_->make("pixels", uint64_t{view.width} * view.height * 8);
-    if (!pixels) return pixels.error();
-    const auto executed = workbench_->run([&](Graph& graph) {
-      const SurfaceBuffers found = declare(graph, points, variant, view, true);
-      BufferRef kept = importWhole(graph, "pixels", *pixels);
-      graph.pass("keep", [&](Pass& pass) {
-        pass.read(found.pixels, Use::CopySource);
-        kept = pass.write(kept, Use::CopyTarget, true);
-        return [=, from = found.pixels, bytes = pixels->size()](Commands& commands) { commands.copy(from, kept, bytes); };
-      });
-    });
-    if (!executed) return executed.error();
-    if (ms) *ms = executed->run_ms;
-    const auto words = workbench_->download<uint32_t>(*pixels);
-    if (!words) return words.error();
-    RenderedSurface drawn;
-    drawn.depth.resize(words->size() / 2);
-    drawn.normal.resize(drawn.depth.size());
-    for (size_t i = 0; i < drawn.depth.size(); ++i) {
-      const SurfacePixel pixel = unpackPixel(&(*words)[2 * i]);
-      drawn.depth[i] = pixel.depth;
-      drawn.normal[i] = pixel.normal;
-    }
-    return drawn;
-  }
-
-  void declareForTiming(Graph& graph, const Points& points, const SurfaceVariant& variant, const FluidView& view) {
-    const SurfaceBuffers found = declare(graph, points, variant, view, false);
-    graph.pass("consume", [&](Pass& pass) {
-      pass.read(found.pixels, Use::CopySource);
-      pass.sideEffect();
-      return [](Commands&) {};
-    });
-  }
-
-  /// Times of all surface passes; call draw() first, so that the shaders are compiled.
-  Expected<std::vector<double>> time(const Points& points, const SurfaceVariant& variant, const FluidView& view) {
-    auto taken = sampleGraph(
-        *workbench_, samples(), [&](Graph& graph) { declareForTiming(graph, points, variant, view); }, WarmUp::Done);
-    if (!taken) return taken.error();
-    return std::move(taken->run_ms);
-  }
-
-  /// Times of smoothing and normals: all passes after the sphere depth. Separate runs, since time stamps per pass slow the graph.
-  Expected<std::vector<double>> timeSmoothing(const Points& points, const SurfaceVariant& variant, const FluidView& view) {
-    static constexpr std::array kBefore{"particle count", "surface clear", "surface occlude",
-                                        "surface cull",   "surface splat", "surface tiles"};
-    std::vector<double> taken;
-    workbench_->timePasses(true);
-    for (uint32_t k = 0; k < samples(); ++k) {
-      const auto ran = workbench_->run([&](Graph& graph) { declareForTiming(graph, points, variant, view); });
-      if (!ran) return ran.error();
-      double ms = 0;
-      for (const Timing& timing : workbench_->passTimes())
-        if (std::ranges::find(kBefore, timing.name) == kBefore.end()) ms += timing.ms;
-      taken.push_back(ms);
-    }
-    workbench_->timePasses(false);
-    return taken;
   }
 
   /// Measures every variant on every shape of a picture.
@@ -201,26 +109,26 @@ class Render {
       const auto variants = selectedVariants(picture, *shape);
       if (variants.empty()) continue;
       const ReferenceSurface reference = referenceSurface(*shape, picture.eye);
-      auto points = upload(*shape, picture.jitter, 1), rejittered = upload(*shape, picture.jitter, 2);
+      auto points = runs_->upload(*shape, picture.jitter, 1), rejittered = runs_->upload(*shape, picture.jitter, 2);
       if (!points) return points.error();
       if (!rejittered) return rejittered.error();
       for (const SurfaceVariant* variant : variants) {
         if (bench_.stopped()) break;
         bench_.step(picture.name + ", " + shape->name() + ", " + variant->name(), partsOf(picture.eye));
-        const auto drawn = draw(*points, *variant, view);
+        const auto drawn = runs_->draw(*points, *variant, view);
         if (!drawn) return drawn.error();
-        const auto ms = time(*points, *variant, view);
+        const auto ms = runs_->time(*points, *variant, view);
         if (!ms) return ms.error();
         const Errors e = surfaceErrors(reference, *drawn);
         Json json{{"picture", picture.name},    {"shape", shape->name()},        {"method", variant->family}, {"setting", variant->setting},
                   {"particles", points->count}, {"ms", sampleStatistics(*ms)},   {"normal_mean_deg", e.mean}, {"normal_p95_deg", e.p95},
                   {"edge_mean_deg", e.edge},    {"depth_rms_spacings", e.depth}, {"silhouette_iou", e.iou}};
         if (variant->isDefault()) {
-          const auto other = draw(*rejittered, *variant, view);
+          const auto other = runs_->draw(*rejittered, *variant, view);
           if (!other) return other.error();
           const double change = errorChange(reference, *drawn, reference, *other);
           json["jittered_anew_deg"] = change;
-          const auto smoothing = timeSmoothing(*points, *variant, view);
+          const auto smoothing = runs_->timeSmoothing(*points, *variant, view);
           if (!smoothing) return smoothing.error();
           json["smoothing_ms"] = sampleStatistics(*smoothing);
           figures_.push_back({picture.name, shape->name(), variant->family, median(*ms), median(*smoothing), e.mean, e.p95, e.edge, e.iou});
@@ -248,7 +156,7 @@ class Render {
     std::vector<ReferenceSurface> references;
     for (int k = 0; k < frames() && !bench_.stopped(); ++k) {
       const auto wave = travelingWave(eye.distance, eye.tanHalfFovX, eye.tanHalfFovY, kWavelength, kTravel * k);
-      auto uploaded = upload(*wave, picture.jitter, 1);
+      auto uploaded = runs_->upload(*wave, picture.jitter, 1);
       if (!uploaded) return uploaded.error();
       points.push_back(std::move(*uploaded));
       references.push_back(referenceSurface(*wave, eye));
@@ -273,7 +181,7 @@ class Render {
       if (!particles) return particles.error();
       std::vector<Float4> positions;
       for (const Float3& p : particles->positions) positions.push_back({p.x, p.y, p.z, 0});
-      auto uploaded = upload(positions, scene->fluid.spacing);
+      auto uploaded = runs_->upload(positions, scene->fluid.spacing);
       if (!uploaded) return uploaded.error();
       points.push_back(std::move(*uploaded));
     }
@@ -296,7 +204,7 @@ class Render {
       RenderedSurface before;
       std::vector<double> ms(points.size()), changes;
       for (size_t k = 0; k < points.size(); ++k) {
-        auto drawn = draw(points[k], *variant, view, &ms[k]);
+        auto drawn = runs_->draw(points[k], *variant, view, &ms[k]);
         if (!drawn) return drawn.error();
         if (k > 0) changes.push_back(change(k, before, *drawn));
         before = std::move(*drawn);
@@ -325,6 +233,7 @@ class Render {
   Bench& bench_;
   std::optional<Workbench> workbench_;
   std::optional<FluidRenderer> renderer_;
+  std::optional<SurfaceRuns> runs_;
   std::vector<SurfaceVariant> variants_;
   Table errors_;
   std::vector<SurfaceFigures> figures_;
