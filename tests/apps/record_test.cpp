@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -96,6 +97,9 @@ TEST(Record, TellsHowManyParticlesSleepWhereAsked) {
   EXPECT_EQ(record.sleepText(), "asleep at the end: 1,234 of 1,234 particles; 1 of 2 frames without substeps\n");
   EXPECT_EQ(figure(record, "sleeping"), 1234);
   EXPECT_EQ(nlohmann::json::parse(record.json())["frames"][1]["sleeping"], 1234);
+  EXPECT_TRUE(std::ranges::count(Record::figureNames(small), "sleeping"));
+  small.gravity = {0, 0, 0};
+  EXPECT_FALSE(std::ranges::count(Record::figureNames(small), "sleeping")) << "nothing can sleep";
 }
 
 TEST(Record, CountsWhitewaterWhereTheSceneHasIt) {
