@@ -108,6 +108,7 @@ std::vector<Figure> Record::figures() const {
       {"neighbour_overflow", of(&Stats::neighborOverflow)(largest), ""},
       {"loop_bound_hits", of(&Stats::loopBoundHits)(largest), ""},
       {"viscosity_bound_hits", double(last.viscosityBoundHits), ""},
+      {"viscosity_capped", double(last.viscosityCapped), ""},
       {"diffusion_bound_hits", double(last.diffusionBoundHits), ""},
       {"picture_bound_hits", double(pictureBoundHits()), ""},
   };

@@ -76,6 +76,7 @@ Json frameJson(const Scene& scene, double time_s, const offline::Stats& stats) {
   frame["neighbour_overflow"] = stats.neighborOverflow;
   frame["loop_bound_hits"] = stats.loopBoundHits;
   frame["viscosity_bound_hits"] = stats.viscosityBoundHits;
+  frame["viscosity_capped"] = stats.viscosityCapped;
   frame["diffusion_bound_hits"] = stats.diffusionBoundHits;
   frame["picture_bound_hits"] = stats.pictureBoundHits;
   frame["list_builds"] = stats.listBuilds;

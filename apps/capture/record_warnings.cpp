@@ -50,6 +50,9 @@ std::vector<std::string> Record::warnings() const {
                         : scene_->fluid.yield_stress > 0 ? "fluid.yield_stress"
                                                          : "fluid.viscosity") +
                        " acted as less");
+  if (last.viscosityCapped > 0)
+    warnings.push_back("warning: at the end shear asked for more viscosity than its solve reaches, of " + grouped(last.viscosityCapped) +
+                       " particles: what stands creeps faster than its yield stress allows");
   if (last.diffusionBoundHits > 0)
     warnings.push_back("warning: " + grouped(last.diffusionBoundHits) +
                        " steps of diffusion needed more stages than they take: that of the " + "fluids acted as less");

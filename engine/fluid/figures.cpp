@@ -213,6 +213,7 @@ void FluidImpl::poll() const {
       s.neighborOverflow = sums.overflow;
       s.loopBoundHits = sums.boundHits;
       s.viscosityBoundHits = sums.viscosityBoundHits;
+      s.viscosityCapped = sums.viscosityCapped;
       s.diffusionBoundHits = sums.diffusionBoundHits;
       s.listBuilds = control.builds;
       s.artificialViscosity_Pa_s = setup.artificialViscosity * control.restFraction;

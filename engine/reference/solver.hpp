@@ -142,7 +142,8 @@ class ReferenceSolver {
   ReferenceSettings settings;  ///< gravity, coefficients and solids may change between substeps; kernel, spacing and walls may not
 
   size_t size() const { return state.position.size(); }
-  double time() const { return time_; }  ///< s, since begin
+  double time() const { return time_; }                          ///< s, since begin
+  uint32_t viscosityCapped() const { return viscosityCapped_; }  ///< particles that asked for more viscosity than viscosity() reached
   const SmoothingKernel& kernel() const { return kernel_; }
   double mass() const;                             ///< of a particle of the densest fluid: rho0 d^3, kg
   double inverseMass(size_t i) const;              ///< of a particle, over that of one of the densest fluid
@@ -205,7 +206,7 @@ class ReferenceSolver {
   double tensionOf(size_t i) const;                                                ///< N/m
   double coverOf(size_t i, size_t j) const;                                        ///< m, of samples of i by j
   double pairViscosity(size_t i, size_t j) const;                                  ///< over settings.viscosity: the harmonic mean
-  std::vector<double> shearViscosities(double c) const;                            ///< of particles, likewise, from the rates of shear
+  std::vector<double> shearViscosities(double c);                                  ///< of particles, likewise, from the rates of shear
   double densityScale() const;                                                     ///< factor on the fluid's part of the density
   std::vector<glm::dvec3> meanDifference(const std::vector<glm::dvec3>& v) const;  ///< sum_j K_ij (v_j - v_i)
   std::vector<glm::dvec3> viscousForce(double c,
@@ -255,6 +256,7 @@ class ReferenceSolver {
   std::vector<glm::dvec3> curl_;
   std::vector<glm::dvec3> prior_;         ///< m/s, velocities before the substep, if shear changes viscosities
   std::vector<double> shearViscosity_;    ///< over settings.viscosity, of particles
+  uint32_t viscosityCapped_ = 0;          ///< of them, those that the solve does not reach
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   double push_ = 0;                       ///< m^2, of the last correction
   int substeps_ = 0;                      ///< since the start

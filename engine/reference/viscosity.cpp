@@ -95,8 +95,9 @@ double ReferenceSolver::shearRate(size_t i, const Field& v) const {
 }
 
 // No more than what the steps of the solve reach.
-std::vector<double> ReferenceSolver::shearViscosities(double c) const {
+std::vector<double> ReferenceSolver::shearViscosities(double c) {
   std::vector<double> all(size());
+  viscosityCapped_ = 0;
   for (size_t i = 0; i < size(); ++i) {
     const ReferenceFluid& fluid = settings.fluids[state.fluid[i]];
     all[i] = viscosityAt({fluid.viscosity, fluid.yieldStress, fluid.flowIndex}, shearRate(i, prior_)) / settings.viscosity;
@@ -113,7 +114,9 @@ std::vector<double> ReferenceSolver::shearViscosities(double c) const {
     const bool changes = fluid.yieldStress > 0 || fluid.flowIndex != 1;
     if (changes && whole > 0) all[i] *= std::clamp(1 / whole, 1.0, double{kShearGain});
     const double row = 2 * c * inverseMass(i) * largestRow(own), room = (settings.shearBound - 1) / kShearMargin;
-    if (row * all[i] > room) all[i] = room / row;
+    if (row * all[i] <= room) continue;
+    all[i] = room / row;
+    ++viscosityCapped_;
   }
   return all;
 }

@@ -61,6 +61,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
   sums.errorHigh = 0u;
   sums.errorMax = 0u;
   sums.viscosityBound = 0u;
+  sums.viscosityCapped = 0u;
   sums.diffusionRow = 0u;
 
   if (first) control.phase = control.nextPhase;

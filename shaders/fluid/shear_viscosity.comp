@@ -87,6 +87,8 @@ void main() {
   vec3 rows = diagonal + abs(mixed.zxy) + abs(mixed.yzx);
   float row = 2.0 * inverseMassOf(fluid) * params.viscosityRate * control.step * max(rows.x, max(rows.y, rows.z));
   float room = (params.shearBound - 1.0) / kShearMargin;
-  priorVelocity[i] = vec4(own.xyz, row * viscosity > room ? room / row : viscosity);
+  bool capped = row * viscosity > room;
+  if (capped) atomicAdd(sums.viscosityCapped, 1u);
+  priorVelocity[i] = vec4(own.xyz, capped ? room / row : viscosity);
   if (i == 0u) priorVelocity[params.capacity] = vec4(0.0);  // the dummy neighbor
 }

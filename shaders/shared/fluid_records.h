@@ -253,6 +253,7 @@ struct FluidSums {
   uint diffusionStages;      // of it
   float diffusionStep;       // s, the time that each is for
   uint diffusionBoundHits;   // steps since the start that needed more than FluidParams::diffusionStages
+  uint viscosityCapped;      // particles whose viscosity by shear was more than the last solve reaches
 };
 RILL_CONST float kMotionUnit = 1.0f / 67108864.0f;
 RILL_CONST float kMaxMotion = 32.0f;  // what one particle adds, at most

@@ -65,6 +65,7 @@ TEST(Record, WarnsAboutDroppedTimeAndLimits) {
   some.timeDropped_s = 0.125;
   some.loopBoundHits = 1234;
   some.viscosityBoundHits = 56;
+  some.viscosityCapped = 78;
   some.nonFinite = 1;
   some.pictureBoundHits = 7;
   cut.add(0, stats(0.001, 1, 1));
@@ -74,12 +75,13 @@ TEST(Record, WarnsAboutDroppedTimeAndLimits) {
   EXPECT_EQ(figure(cut, "viscosity_bound_hits"), 56);
   EXPECT_EQ(figure(cut, "simulated_s"), 0.25) << "dropped time is not simulated";
   const std::vector<std::string> warnings = cut.warnings();
-  ASSERT_EQ(warnings.size(), 5u);
+  ASSERT_EQ(warnings.size(), 6u);
   for (const auto& [k, what] : {std::pair(0, "0.25 s of 0.5 s were dropped: "),
                                 {1, "56 substeps viscosity needed more steps"},
-                                {2, "1,234 times"},
-                                {3, "1 particle is"},
-                                {4, "14 times"}})
+                                {2, "of 78 particles"},
+                                {3, "1,234 times"},
+                                {4, "1 particle is"},
+                                {5, "14 times"}})
     EXPECT_NE(warnings[k].find(what), std::string::npos) << warnings[k];
 }
 

@@ -38,6 +38,22 @@ TEST_F(ShearViscosityTest, FluidAtRestMatchesReference) {
   expectEqual(t, 5, 2e-3, 2e-3);
 }
 
+TEST_F(ShearViscosityTest, CountsParticlesThatAskForMoreThanTheSolveReaches) {
+  const auto capped = [&](double yieldStress) {
+    const Trial t = mud(yieldStress, 20, 1);
+    auto run = start(t);
+    Oracle oracle(t);
+    run->substeps(3);
+    oracle.advance(3);
+    EXPECT_EQ(run->stats().viscosityCapped, oracle.solver().viscosityCapped()) << yieldStress;
+    return oracle.solver().viscosityCapped();
+  };
+  EXPECT_EQ(capped(1), 0u);
+  const uint32_t some = capped(2e6);
+  EXPECT_GT(some, 0u);
+  EXPECT_GT(capped(1e9), some);
+}
+
 TEST_F(ShearViscosityTest, SolidsAndSeveralFluidsMatchReference) {
   Trial t = mud(300, 20, 0.8);
   t.scene.fluids = {{.name = "mud"},

@@ -90,6 +90,7 @@ struct FluidStats {
   std::optional<uint64_t> sleeping = {};   ///< particles asleep, all or those in regions at rest, with solver.sleep
   uint64_t diffusionBoundHits = 0;         ///< steps of diffusion since the start that needed more stages than they take
   uint64_t viscosityBoundHits = 0;         ///< substeps since the start whose viscosity needed more steps than its solve takes
+  uint64_t viscosityCapped = 0;            ///< particles for which shear asked for more viscosity than the last solve reaches
   double artificialViscosity_Pa_s = 0;     ///< what solver.artificial_viscosity adds to the shortest waves now, Pa s, before its bound
 };
 
