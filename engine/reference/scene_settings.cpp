@@ -64,6 +64,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.separationSpeed = setup.params.separationSpeed;
   s.minSpeedGain = setup.params.minSpeedGain;
   s.maxSpeedGain = setup.params.maxSpeedGain;
+  s.solidSpeed = setup.params.solidSpeed;
   return s;
 }
 

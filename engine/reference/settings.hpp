@@ -72,9 +72,10 @@ struct ReferenceSettings {
   double speedLimit = std::numeric_limits<double>::infinity();  ///< largest speed after a substep, m/s
   double warmLimit = std::numeric_limits<double>::infinity();   ///< m^2/s^2: w >= -warmLimit dt^2
   /// The last correction may add at most clamp(half of the largest speed or five times that of a body, minSpeedGain, maxSpeedGain) + 4 g dt
-  /// to the speed of a particle. m/s.
+  /// to the speed of a particle; what solids, walls and earlier corrections push it by, that much more than their approach. m/s.
   double minSpeedGain = std::numeric_limits<double>::infinity();
   double maxSpeedGain = std::numeric_limits<double>::infinity();
+  double solidSpeed = 0;  ///< m/s, of the fastest solid that keyframes move
 };
 
 }  // namespace rill::reference

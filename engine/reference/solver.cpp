@@ -41,7 +41,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   delta_.assign(count, 0);
   curl_.assign(count, glm::dvec3(0));
   rejected_.assign(count, glm::dvec3(0));
-  gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
+  planned_ = gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) addSpeed(glm::length(v));
   walls_.outflowAxis = settings.outflowAxis;
@@ -111,6 +111,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   const bool first = substeps_++ % settings.substepsPerBlock == 0;
   impulses_ = applied_ = warmImpulses_;
   rejected_.assign(size(), glm::dvec3(0));
+  pushedByBody_.assign(size(), false);
   blockTime_ += dt;
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
@@ -200,6 +201,7 @@ void ReferenceSolver::correction(double dt, double push) {
       wallPosition_[i] = collide(moved, {});
       gain_[i] = wallPosition_[i] - state.predicted[i];
       state.predicted[i] = collide(moved, solids, [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) {
+        pushedByBody_[i] = pushedByBody_[i] || bodies_.isBody(n);
         const double share = bodies_.share(n, at, glm::normalize(by));
         rejected_[i] += (1 - share) * by;
         add(n, share / inverseMass(i) * by, at);
@@ -210,10 +212,16 @@ void ReferenceSolver::correction(double dt, double push) {
   }
 }
 
+double ReferenceSolver::keptPush(const glm::dvec3& moved, const glm::dvec3& push, double most) {
+  const double length = glm::length(push);
+  return length > 0 ? std::min(1.0, (std::max(0.0, -glm::dot(moved, push) / length) + most) / length) : 1;
+}
+
 void ReferenceSolver::velocities(double dt) {
   const std::vector<Pose> solids = poses(time_, dt);
   const double maxGain = dt * (std::clamp(std::max(0.5 * fastest_, 5 * bodies_.fastest()), settings.minSpeedGain, settings.maxSpeedGain) +
                                4 * dt * glm::length(settings.gravity));
+  const double maxPush = maxGain + dt * settings.solidSpeed;
   const AddReaction add = addTo(impulses_, solids, 1 / dt);
   std::vector<double> kept(size(), 1);
   fastest_ = squares_ = 0;  // exclude solids, as in the shaders
@@ -222,9 +230,12 @@ void ReferenceSolver::velocities(double dt) {
     const double gain = glm::length(gain_[i]);
     kept[i] = gain > maxGain ? maxGain / gain : 1;
     const double removed = 1 - kept[i];
-    const glm::dvec3 excess = removed * (gain_[i] + 0.5 * (wallPosition_[i] - gain_[i] - state.position[i]));
-    if (finite(wallPosition_[i])) addSpeed(glm::length(wallPosition_[i] - state.position[i] - excess) / dt);
-    glm::dvec3 v = contact(i, (state.predicted[i] - state.position[i] - excess - rejected_[i]) / dt, dt, solids, add);
+    const glm::dvec3 pushed = wallPosition_[i] - gain_[i] - state.position[i] - planned_[i];
+    const glm::dvec3 before = planned_[i] + keptPush(planned_[i], pushed, maxPush) * pushed;
+    const glm::dvec3 free = (1 - 0.5 * removed) * before + kept[i] * gain_[i];
+    if (finite(wallPosition_[i])) addSpeed(glm::length(free) / dt);
+    const glm::dvec3 out = state.predicted[i] - wallPosition_[i] - rejected_[i];
+    glm::dvec3 v = contact(i, (free + (pushedByBody_[i] ? 1 : keptPush(free, out, maxPush)) * out) / dt, dt, solids, add);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
     if (finite(v)) {
@@ -275,6 +286,7 @@ void ReferenceSolver::predictPositions(double dt, bool atRest) {
     for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * (pairScale(i, pair) * pair.gradient);
     addReactions(i, state.warm[i], densityPoses_, add);
     const glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + inverseMass(i) * push;
+    planned_[i] = x - state.position[i];
     if (finite(x)) {
       const AddReaction weighed = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { pushed(n, by / inverseMass(i), at); };
       state.predicted[i] = collide(x, solids, weighed, atRest);  // the density that a body displaces is enough

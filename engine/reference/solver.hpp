@@ -188,6 +188,8 @@ class ReferenceSolver {
   Pair makePair(uint32_t i, uint32_t j) const;
   void addImages(uint32_t i, std::span<const uint32_t> neighbors);
   void predictPositions(double dt, bool atRest);
+  /// The part of a displacement by solids that counts as speed: what stops a displacement `moved` toward them, and `most`, m.
+  static double keptPush(const glm::dvec3& moved, const glm::dvec3& push, double most);
   void deactivate(size_t i);
   void addSpeed(double speed);
   void updateRestFactor();
@@ -246,6 +248,7 @@ class ReferenceSolver {
   std::vector<Impulse> impulses_, warmImpulses_;  ///< of the present substep; of the prediction of the next one
   std::vector<Impulse> applied_;                  ///< of impulses_, what has moved bodies
   std::vector<glm::dvec3> rejected_;              ///< m, the part of pushes by bodies that changes no velocity
+  std::vector<bool> pushedByBody_;                ///< in the present substep
   bool firstIteration_ = true;
   /// A displacement in the last correction, m, before gains are bounded.
   struct Contribution {
@@ -264,6 +267,7 @@ class ReferenceSolver {
   double fastest_ = 0;                    ///< largest speed, m/s, initially or in the last velocities()
   double squares_ = 0;                    ///< sum of the squares of speeds, m^2/s^2, likewise
   std::vector<glm::dvec3> wallPosition_;  ///< m, position after the last correction and the walls, before solids
+  std::vector<glm::dvec3> planned_;       ///< m, displacement of the prediction before walls and solids
   std::vector<glm::dvec3> gain_;          ///< m, displacement by the last correction and the walls
 };
 

@@ -6,6 +6,7 @@
 #include "fluid/uniforms.glsl"
 #include "fluid/fluids.glsl"
 #include "fluid/solid_samples.glsl"
+#include "fluid/speed_gain.glsl"
 layout(local_size_x = kFluidGroup) in;
 layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
@@ -36,10 +37,12 @@ float shareOf(uint body, vec3 x, vec3 direction) {
 
 bool countsPushes = false;  // whether what pushes a center changes its velocity
 float ownInverseMass;
+bool pushedByBody = false;
 vec3 rejected = vec3(0.0);  // the part of that, m, which changes no velocity
 void pushedBy(uint k, SolidRecord s, vec3 x, vec3 normal, vec3 by) {
   if (!countsPushes) return;
   if (BODIES) {
+    pushedByBody = pushedByBody || s.body != kNoBody;
     float share = shareOf(s.body, x, normal);
     rejected += (1.0 - share) * by;
     by *= share;
@@ -120,6 +123,7 @@ void main() {
   }
   vec3 gained = (x - from) / control.step;
   if (BODIES) gained -= rejected / control.step;
+  if (!pushedByBody) gained *= keptPush(velocity[i].xyz, gained);  // bodies give way, and get what the particle does
   vec3 v = velocity[i].xyz + gained;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
   // share of the change already.

@@ -15,6 +15,7 @@
 #include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
 #include "fluid/solid_samples.glsl"
+#include "fluid/speed_gain.glsl"
 layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
@@ -60,12 +61,14 @@ void reflectSums(vec3 signs) {
 
 // Displacement from the start of the substep to its prediction. Computed from the velocity where
 // nothing else changed the prediction: the rounding of a difference of positions would make a
-// random walk of the velocity.
+// random walk of the velocity. What a solid pushed it by beyond their approach is a correction, too.
 vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   vec3 difference = here - from;
   vec3 planned = control.step * (velocity + control.step * (gravity() + acceleration));
-  vec3 rounding = 3.0e-7 * (abs(from) + abs(here));
-  return all(lessThanEqual(abs(difference - planned), rounding)) ? planned : difference;
+  vec3 rounding = 3.0e-7 * (abs(from) + abs(here)), pushed = difference - planned;
+  if (all(lessThanEqual(abs(pushed), rounding))) return planned;
+  float kept = keptPush(planned / control.step, pushed / control.step);
+  return kept < 1.0 ? planned + kept * pushed : difference;
 }
 
 // Of a particle that sleeps: what would move it, for rest_motion.comp.
@@ -97,8 +100,7 @@ float endSubstep(uint i, uint head) {
   // together: see docs/notes/overlaps.md.
   vec3 gained = to - here;
   float gain = sqrt(dot(gained, gained));
-  float maxGain = control.step * (clamp(max(0.5 * control.speed, 5.0 * control.bodySpeed), params.minSpeedGain, params.maxSpeedGain) +
-                                  4.0 * control.step * sqrt(dot(gravity(), gravity())));
+  float maxGain = control.step * maxSpeedGain();
   float kept = min(1.0, maxGain / max(gain, 1.0e-20));
   // clamping deep overlaps also dissipates energy
   vec3 displacement = (0.5 + 0.5 * kept) * predictedDisplacement(from, before, lastAcceleration.xyz) + gained * kept;

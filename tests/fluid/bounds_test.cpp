@@ -87,6 +87,17 @@ TEST_F(BoundsTest, PolySpikyGainsNoEnergy) {
   EXPECT_LT(maxEnergy(t, 40), 1.02);
 }
 
+// The corrections of all iterations are bounded in what they add to speeds, not the last one's alone.
+TEST_F(BoundsTest, IterationsWithoutTensileGainNoEnergy) {
+  Trial t = dam();
+  t.scene.gravity = {2.1, -9.3, 4.5};
+  t.scene.solver.iterations = 8;
+  t.scene.fluid.tensile = 0;
+  setWalls(t, {0.87, 0.75, 0.3});
+  t.x = block({5, 4, 3}, t.d());
+  EXPECT_LT(maxEnergy(t, 40), 1.02);
+}
+
 TEST_F(BoundsTest, StrongTensileGainsNoEnergy) {
   Trial t = dam();
   t.scene.fluid.tensile = 1;

@@ -116,7 +116,7 @@ TEST_F(FluidsTest, BodiesMatchReference) {
     Oracle oracle(t);
     const std::vector<reference::Impulse> loads = oracle.advanceWithLoads(10);
     const reference::BodyMotion& exact = oracle.solver().bodies().motion(0);
-    EXPECT_GT(glm::length(exact.velocity), 0.05) << "the trial does not move it";
+    EXPECT_GT(glm::length(exact.velocity), 0.02) << "the trial does not move it";
     forEachGather(t, 10, [&](Run& run) {
       const BodyMotion found = run.fluid().bodies()[0];
       EXPECT_LT(glm::length(reference::vec(found.velocity) - exact.velocity) * t.step, 2 * kFluidsTen * t.d());

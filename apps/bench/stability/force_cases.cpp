@@ -151,6 +151,18 @@ std::vector<StressCase> forceCases() {
     };
     cases.push_back(std::move(c));
   }
+  {
+    // A box closes in on a wall until it touches it. A fall through the room gives 4 m/s.
+    constexpr double d = kTankSpacing;
+    Scene closing = tankScene(d, {16 * d, 8 * d, 8 * d}, {16 * d, 16 * d, 12 * d});
+    closing.solids = {{.shape = BoxShape{{10 * d, 0, 2 * d}, {14 * d, 3 * d, 6 * d}}}};
+    closing.solids[0].motion = {{0, {0, 0, 0}}, {0.8, {0, 0, -2 * d}}};
+    StressCase c = make("box-that-closes-on-a-wall", "", closing);
+    c.externalWork = true;
+    c.duration_s = 1;
+    c.maxSpeed = 8;
+    cases.push_back(std::move(c));
+  }
   for (const bool sheet : {false, true}) cases.push_back(shakenCup(sheet));
   for (const bool longRun : {false, true}) {
     // The long case settles, the short one starts at rest: sloshing exchanges energy with the lattice and looks like drift.
