@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "shared/body_records.h"
 #include "shared/fluid_records.h"
 #include "sph/liquid_scale.hpp"
 
@@ -111,7 +112,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   const bool first = substeps_++ % settings.substepsPerBlock == 0;
   impulses_ = applied_ = warmImpulses_;
   rejected_.assign(size(), glm::dvec3(0));
-  pushedByBody_.assign(size(), false);
+  gaveWay_.assign(size(), false);
   blockTime_ += dt;
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
@@ -201,8 +202,8 @@ void ReferenceSolver::correction(double dt, double push) {
       wallPosition_[i] = collide(moved, {});
       gain_[i] = wallPosition_[i] - state.predicted[i];
       state.predicted[i] = collide(moved, solids, [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) {
-        pushedByBody_[i] = pushedByBody_[i] || bodies_.isBody(n);
         const double share = bodies_.share(n, at, glm::normalize(by));
+        gaveWay_[i] = gaveWay_[i] || share < kFirmShare;
         rejected_[i] += (1 - share) * by;
         add(n, share / inverseMass(i) * by, at);
       });
@@ -235,7 +236,7 @@ void ReferenceSolver::velocities(double dt) {
     const glm::dvec3 free = (1 - 0.5 * removed) * before + kept[i] * gain_[i];
     if (finite(wallPosition_[i])) addSpeed(glm::length(free) / dt);
     const glm::dvec3 out = state.predicted[i] - wallPosition_[i] - rejected_[i];
-    glm::dvec3 v = contact(i, (free + (pushedByBody_[i] ? 1 : keptPush(free, out, maxPush)) * out) / dt, dt, solids, add);
+    glm::dvec3 v = contact(i, (free + (gaveWay_[i] ? 1 : keptPush(free, out, maxPush)) * out) / dt, dt, solids, add);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
     if (finite(v)) {

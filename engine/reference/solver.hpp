@@ -248,7 +248,7 @@ class ReferenceSolver {
   std::vector<Impulse> impulses_, warmImpulses_;  ///< of the present substep; of the prediction of the next one
   std::vector<Impulse> applied_;                  ///< of impulses_, what has moved bodies
   std::vector<glm::dvec3> rejected_;              ///< m, the part of pushes by bodies that changes no velocity
-  std::vector<bool> pushedByBody_;                ///< in the present substep
+  std::vector<bool> gaveWay_;                     ///< whether a body that did pushed the particle in the present substep
   bool firstIteration_ = true;
   /// A displacement in the last correction, m, before gains are bounded.
   struct Contribution {

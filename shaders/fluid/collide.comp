@@ -37,13 +37,13 @@ float shareOf(uint body, vec3 x, vec3 direction) {
 
 bool countsPushes = false;  // whether what pushes a center changes its velocity
 float ownInverseMass;
-bool pushedByBody = false;
+bool gaveWay = false;       // whether a body that did pushed it
 vec3 rejected = vec3(0.0);  // the part of that, m, which changes no velocity
 void pushedBy(uint k, SolidRecord s, vec3 x, vec3 normal, vec3 by) {
   if (!countsPushes) return;
   if (BODIES) {
-    pushedByBody = pushedByBody || s.body != kNoBody;
     float share = shareOf(s.body, x, normal);
+    gaveWay = gaveWay || share < kFirmShare;
     rejected += (1.0 - share) * by;
     by *= share;
   }
@@ -123,7 +123,7 @@ void main() {
   }
   vec3 gained = (x - from) / control.step;
   if (BODIES) gained -= rejected / control.step;
-  if (!pushedByBody) gained *= keptPush(velocity[i].xyz, gained);  // bodies give way, and get what the particle does
+  if (!gaveWay) gained *= keptPush(velocity[i].xyz, gained);
   vec3 v = velocity[i].xyz + gained;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
   // share of the change already.

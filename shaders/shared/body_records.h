@@ -62,6 +62,8 @@ struct PullRecord {
   float dampingRatio;
   float maxForce;                   // N
 };
+// A body that takes less than this share of a push gives way. What others push is bounded in speed: docs/notes/overlaps.md.
+RILL_CONST float kFirmShare = 0.9f;
 RILL_CONST uint kMaxPulls = 64u;
 
 RILL_RECORDS_END
