@@ -38,13 +38,15 @@ EnergyFigures energyFigures(const Scene& scene, std::span<const Instant> run) {
   energy.start_J = energy.max_J = total(run.front());
   energy.end_J = total(run.back());
   for (const Instant& instant : run) energy.max_J = std::max(energy.max_J, total(instant));
-  const double floor = lowestPotential(scene, fluidMass(scene, run.front().stats));
-  const auto ratio = [&](double joules) {
-    if (joules == energy.start_J) return 1.0;
-    return energy.start_J - floor > 0 ? (joules - floor) / (energy.start_J - floor) : std::numeric_limits<double>::quiet_NaN();
+  // Of the fluid that is there at each instant: what drains and open sides remove is above its lowest place, too.
+  const auto above = [&](const Instant& instant) { return total(instant) - lowestPotential(scene, fluidMass(scene, instant.stats)); };
+  const double start = above(run.front());
+  const auto ratio = [&](const Instant& instant) {
+    if (above(instant) == start) return 1.0;
+    return start > 0 ? above(instant) / start : std::numeric_limits<double>::quiet_NaN();
   };
-  energy.ratio = ratio(energy.max_J);
-  energy.end_ratio = ratio(energy.end_J);
+  energy.ratio = ratio(*std::ranges::max_element(run, {}, above));
+  energy.end_ratio = ratio(run.back());
   return energy;
 }
 

@@ -15,7 +15,8 @@ struct Instant {
 /// Kinetic plus potential energy.
 struct EnergyFigures {
   double start_J = 0, max_J = 0, end_J = 0;
-  double ratio = 1;      ///< max over start, with potential energy measured from the domain's lowest corner; NaN where the start is 0
+  /// Max over start, of the fluid that is there, with potential energy measured from the domain's lowest corner; NaN where the start is 0.
+  double ratio = 1;
   double end_ratio = 1;  ///< end over start, likewise
 };
 EnergyFigures energyFigures(const Scene& scene, std::span<const Instant> run);
