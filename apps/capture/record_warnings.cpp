@@ -51,8 +51,8 @@ std::vector<std::string> Record::warnings() const {
                                                          : "fluid.viscosity") +
                        " acted as less");
   if (last.viscosityCapped > 0)
-    warnings.push_back("warning: at the end shear asked for more viscosity than its solve reaches, of " + grouped(last.viscosityCapped) +
-                       " particles: what stands creeps faster than its yield stress allows");
+    warnings.push_back("warning: at the end viscosity acts as less than shear asks for on " + grouped(last.viscosityCapped) + " of " +
+                       grouped(last.particles) + " particles: its solve reaches no more in these steps");
   if (last.diffusionBoundHits > 0)
     warnings.push_back("warning: " + grouped(last.diffusionBoundHits) +
                        " steps of diffusion needed more stages than they take: that of the " + "fluids acted as less");

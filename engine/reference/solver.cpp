@@ -42,6 +42,8 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   delta_.assign(count, 0);
   curl_.assign(count, glm::dvec3(0));
   rejected_.assign(count, glm::dvec3(0));
+  rejectedBefore_ = rejected_;
+  gaveWay_.assign(count, false);
   planned_ = gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) addSpeed(glm::length(v));
@@ -112,7 +114,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   const bool first = substeps_++ % settings.substepsPerBlock == 0;
   impulses_ = applied_ = warmImpulses_;
   rejected_.assign(size(), glm::dvec3(0));
-  gaveWay_.assign(size(), false);
+  rejectedBefore_ = rejected_;
   blockTime_ += dt;
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
@@ -187,6 +189,8 @@ void ReferenceSolver::correction(double dt, double push) {
   const std::vector<Pose> solids = poses(time_, dt);
   const AddReaction add = addTo(impulses_, solids, 1 / dt);
   addContributions(dt, {});  // of the iteration before
+  for (size_t i = 0; i < size(); ++i) rejectedBefore_[i] += std::exchange(rejected_[i], glm::dvec3(0));
+  gaveWay_.assign(size(), false);
   for (size_t i = 0; i < size(); ++i) {
     const AddReaction later = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { contributions_.push_back({i, n, by, at}); };
     glm::dvec3 sum(0), apart(0);
@@ -222,7 +226,7 @@ void ReferenceSolver::velocities(double dt) {
   const std::vector<Pose> solids = poses(time_, dt);
   const double maxGain = dt * (std::clamp(std::max(0.5 * fastest_, 5 * bodies_.fastest()), settings.minSpeedGain, settings.maxSpeedGain) +
                                4 * dt * glm::length(settings.gravity));
-  const double maxPush = maxGain + dt * settings.solidSpeed;
+  const double maxPush = maxGain + dt * settings.solidSpeed, maxPushOut = std::max(maxPush, maxGain + dt * bodies_.fastest());
   const AddReaction add = addTo(impulses_, solids, 1 / dt);
   std::vector<double> kept(size(), 1);
   fastest_ = squares_ = 0;  // exclude solids, as in the shaders
@@ -231,12 +235,12 @@ void ReferenceSolver::velocities(double dt) {
     const double gain = glm::length(gain_[i]);
     kept[i] = gain > maxGain ? maxGain / gain : 1;
     const double removed = 1 - kept[i];
-    const glm::dvec3 pushed = wallPosition_[i] - gain_[i] - state.position[i] - planned_[i];
+    const glm::dvec3 pushed = wallPosition_[i] - gain_[i] - state.position[i] - planned_[i] - rejectedBefore_[i];
     const glm::dvec3 before = planned_[i] + keptPush(planned_[i], pushed, maxPush) * pushed;
     const glm::dvec3 free = (1 - 0.5 * removed) * before + kept[i] * gain_[i];
     if (finite(wallPosition_[i])) addSpeed(glm::length(free) / dt);
     const glm::dvec3 out = state.predicted[i] - wallPosition_[i] - rejected_[i];
-    glm::dvec3 v = contact(i, (free + (gaveWay_[i] ? 1 : keptPush(free, out, maxPush)) * out) / dt, dt, solids, add);
+    glm::dvec3 v = contact(i, (free + (gaveWay_[i] ? 1 : keptPush(free, out, maxPushOut)) * out) / dt, dt, solids, add);
     const double speed = glm::length(v);
     if (speed > settings.speedLimit) v *= settings.speedLimit / speed;
     if (finite(v)) {

@@ -247,8 +247,9 @@ class ReferenceSolver {
   std::vector<Pose> densityPoses_;                ///< that the density is of
   std::vector<Impulse> impulses_, warmImpulses_;  ///< of the present substep; of the prediction of the next one
   std::vector<Impulse> applied_;                  ///< of impulses_, what has moved bodies
-  std::vector<glm::dvec3> rejected_;              ///< m, the part of pushes by bodies that changes no velocity
-  std::vector<bool> gaveWay_;                     ///< whether a body that did pushed the particle in the present substep
+  std::vector<glm::dvec3> rejected_;              ///< m, the part of pushes by bodies in the last correction that changes no velocity
+  std::vector<glm::dvec3> rejectedBefore_;        ///< of corrections before it, in the present substep
+  std::vector<bool> gaveWay_;                     ///< whether a body that did pushed the particle in the last correction
   bool firstIteration_ = true;
   /// A displacement in the last correction, m, before gains are bounded.
   struct Contribution {

@@ -39,7 +39,8 @@ class ParticleView {
   static Expected<void> check(const ParticleViewDesc& desc);
 
   /// Declares the passes of one picture; `desc` must pass check(). The returned buffer holds width x height pixels, RGBA8 in sRGB with
-  /// alpha 255, rows from the top. `time_s`: simulated time of the solids' poses. Without particles the state's buffers are not used.
+  /// alpha 255, rows from the top. `time_s`: simulated time of the solids' poses, at 0 nothing is
+  /// drawn asleep. Without particles the state's buffers are not used.
   BufferRef addTo(Graph& graph, const FluidState& fluid, const CameraView& camera, const ParticleViewDesc& desc, double time_s) const;
 
   /// The value at a color map's end, fixed by the scene so that colors do not flicker: for speed, sqrt(2 g H) of the fall from the

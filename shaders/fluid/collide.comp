@@ -123,7 +123,8 @@ void main() {
   }
   vec3 gained = (x - from) / control.step;
   if (BODIES) gained -= rejected / control.step;
-  if (!gaveWay) gained *= keptPush(velocity[i].xyz, gained);
+  float fastest = BODIES ? max(control.solidSpeed, control.bodySpeed) : control.solidSpeed;
+  if (!gaveWay) gained *= keptPush(velocity[i].xyz, gained, maxSpeedGain() + fastest);
   vec3 v = velocity[i].xyz + gained;
   // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
   // share of the change already.

@@ -61,13 +61,13 @@ void reflectSums(vec3 signs) {
 
 // Displacement from the start of the substep to its prediction. Computed from the velocity where
 // nothing else changed the prediction: the rounding of a difference of positions would make a
-// random walk of the velocity. What a solid pushed it by beyond their approach is a correction, too.
+// random walk of the velocity. What walls, solids and earlier iterations pushed it by beyond their approach is a correction, too.
 vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   vec3 difference = here - from;
   vec3 planned = control.step * (velocity + control.step * (gravity() + acceleration));
   vec3 rounding = 3.0e-7 * (abs(from) + abs(here)), pushed = difference - planned;
   if (all(lessThanEqual(abs(pushed), rounding))) return planned;
-  float kept = keptPush(planned / control.step, pushed / control.step);
+  float kept = keptPush(planned, pushed, control.step * (maxSpeedGain() + control.solidSpeed));
   return kept < 1.0 ? planned + kept * pushed : difference;
 }
 

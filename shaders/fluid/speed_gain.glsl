@@ -8,11 +8,10 @@ float maxSpeedGain() {
          4.0 * control.step * sqrt(dot(gravity(), gravity()));
 }
 
-// The part of what solids push a particle by (m/s) that changes its velocity: what stops their approach, and a correction's bound more.
-float keptPush(vec3 velocity, vec3 push) {
-  float speed = length(push);
-  if (speed <= 0.0) return 1.0;
-  float approach = max(-dot(velocity, push) / speed, 0.0) + control.solidSpeed;
-  return min(1.0, (approach + maxSpeedGain()) / speed);
+// The part of a push by walls, solids or earlier iterations that changes a particle's velocity: what stops its approach, `moved`, and
+// `most` more. All in meters, or all in m/s.
+float keptPush(vec3 moved, vec3 push, float most) {
+  float size = length(push);
+  return size > 0.0 ? min(1.0, (max(-dot(moved, push) / size, 0.0) + most) / size) : 1.0;
 }
 #endif

@@ -25,6 +25,8 @@ struct BodyRecord {
   float unused[2];
 };
 RILL_CONST uint kBodyQuads = 13u;  // of a BodyRecord, four words each
+// A body that takes less than this share of a push gives way. What others push is bounded in speed: docs/notes/overlaps.md.
+RILL_CONST float kFirmShare = 0.9f;
 
 // A sphere on the surface of a body, whose contacts with walls and other solids are found; see engine/shape/contact_points.hpp.
 struct ContactPointRecord {
@@ -62,8 +64,6 @@ struct PullRecord {
   float dampingRatio;
   float maxForce;                   // N
 };
-// A body that takes less than this share of a push gives way. What others push is bounded in speed: docs/notes/overlaps.md.
-RILL_CONST float kFirmShare = 0.9f;
 RILL_CONST uint kMaxPulls = 64u;
 
 RILL_RECORDS_END

@@ -73,12 +73,14 @@ TEST(Record, WarnsAboutDroppedTimeAndLimits) {
   cut.add(0.5, some);
   EXPECT_EQ(figure(cut, "time_dropped_s"), 0.25);
   EXPECT_EQ(figure(cut, "viscosity_bound_hits"), 56);
+  EXPECT_EQ(figure(cut, "viscosity_capped"), 78);
+  EXPECT_EQ(nlohmann::json::parse(cut.json())["frames"][1]["viscosity_capped"], 78);
   EXPECT_EQ(figure(cut, "simulated_s"), 0.25) << "dropped time is not simulated";
   const std::vector<std::string> warnings = cut.warnings();
   ASSERT_EQ(warnings.size(), 6u);
   for (const auto& [k, what] : {std::pair(0, "0.25 s of 0.5 s were dropped: "),
                                 {1, "56 substeps viscosity needed more steps"},
-                                {2, "of 78 particles"},
+                                {2, "on 78 of "},
                                 {3, "1,234 times"},
                                 {4, "1 particle is"},
                                 {5, "14 times"}})
