@@ -30,5 +30,26 @@ TEST(RunFigures, EnergyIsThatOfTheFluidThatIsThere) {
   EXPECT_NEAR(energyFigures(scene, gains).end_ratio, 1.125, 1e-9);
 }
 
+// Masses are those of the fluids: here the heavy half drains from the middle, and the light one stays there.
+TEST(RunFigures, EnergyIsThatOfEachFluid) {
+  Scene scene;
+  scene.gravity = {0, 10, 0};
+  scene.domain = Domain{{0, 0, 0}, {1, 1, 1}};
+  scene.fluid.spacing = 0.1;
+  scene.fluids = {{.name = "water", .density = 1000}, {.name = "oil", .density = 500}};
+  const auto at = [](double time_s, uint64_t water) {
+    Instant instant{.time_s = time_s};
+    instant.stats.fluids.resize(2);
+    instant.stats.fluids[0].particles = water;
+    instant.stats.fluids[1].particles = 4;
+    instant.stats.particles = water + 4;
+    instant.stats.potential_J = -10 * (double(water) + 0.5 * 4) * 0.5;
+    return instant;
+  };
+  const std::vector<Instant> run = {at(0, 4), at(1, 0)};
+  EXPECT_NEAR(energyFigures(scene, run).ratio, 1, 1e-9);
+  EXPECT_NEAR(energyFigures(scene, run).end_ratio, 1.0 / 3, 1e-9);
+}
+
 }  // namespace
 }  // namespace rill::apps
