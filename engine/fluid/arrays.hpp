@@ -59,6 +59,7 @@ enum class FluidArray : uint8_t {
   NearExcess,
   NearStiffness,
   NearSolids,
+  NearMouths,
   // The neighbor search.
   CellStart,
   List,

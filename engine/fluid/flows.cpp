@@ -48,6 +48,20 @@ void fillRect(const std::pair<double, double>& size, double spacing, MouthLattic
       lattice.points.push_back({f(size.first * ((i + 0.5) / columns - 0.5)), f(size.second * ((j + 0.5) / rows - 0.5))});
 }
 
+/// Where a mouth that lies on a wall, and faces away from it, is taken to be: half a spacing off it, as the first layer of particles is.
+Double3 offWalls(const Scene& scene, Double3 center, const Double3& normal) {
+  constexpr double kFaces = 0.999, kOn = 1e-6;
+  if (!scene.domain) return center;
+  const Domain& domain = *scene.domain;
+  for (size_t a = 0; a < 3; ++a) {
+    const bool low = normal[a] > 0;
+    if (std::abs(normal[a]) < kFaces || (domain.open & ((low ? 1u : 2u) << (2 * a)))) continue;
+    const double off = low ? center[a] - domain.min[a] : domain.max[a] - center[a], least = 0.5 * scene.fluid.spacing;
+    if (off > -kOn * least && off < least) center[a] = low ? domain.min[a] + least : domain.max[a] - least;
+  }
+  return center;
+}
+
 float secondsOrNever(const std::optional<double>& time) { return time ? f(std::min(*time, double{kNever})) : kNever; }
 
 /// Substeps move particles by cfl spacings at most, and there are max_substeps of them in 1/60 s.
@@ -150,7 +164,7 @@ Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& s
     if (auto able = checkEmitter(scene, emitter, key, setup); !able) return able;
     const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
     EmitterRecord r{};
-    place(r, minus(lattice.center, origin));
+    place(r, minus(offWalls(scene, lattice.center, lattice.normal), origin));
     setAxes(r, lattice.normal, lattice.across, lattice.up);
     r.halfAcross = f(lattice.half.first);
     r.halfUp = f(lattice.half.second);

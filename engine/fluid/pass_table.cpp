@@ -71,6 +71,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::SortConcentration, "sort concentrations", "fluid/sort_concentration", E::Particles, kRebuild, {diffuses}},
     {P::KeepConcentration, "keep concentrations", "fluid/keep_concentration", E::Particles, kRebuild, {diffuses}},
     {P::BuildList, "build list", "fluid/build", E::Chunks, kRebuild, kAlways, kClusters},
+    {P::NearMouths, "particles near mouths", "fluid/near_mouths", E::Particles, kRebuild, kEmits},
     {P::FinishRebuild, "finish rebuild", "fluid/finish_rebuild"},
 
     {P::MoveSolids, "move solids", "fluid/pose", E::One, {S::Density}, kMoves},
@@ -81,6 +82,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::PushBodies, "push bodies", "fluid/push_bodies", E::Bodies, {S::Density}, kBodies},
     {P::Iterate, "iterate", "fluid/iterate", E::Gather, {S::Iterate}, kIterates},
     {P::DisplaceDensity, "density of solids", "fluid/solids", E::NearSolids, kSolve, kSolids},
+    {P::MouthDensity, "density of mouths", "fluid/mouth_density", E::NearMouths, kSolve, kEmits},
     {P::Density, "density", "fluid/density", E::Gather, kSolve},
     {P::Control, "control", "fluid/control", E::One, {}, {separate}},
     {P::ShearViscosity, "viscosity by shear", "fluid/shear_viscosity", E::Gather, kEnd, kShearViscosity},
@@ -119,10 +121,11 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::SurfaceForces, "forces of surfaces", "fluid/surface_forces", E::Particles, kEnd, {tense}},
     {P::PredictAfterForces, "predict after forces", "fluid/predict", E::Particles, kEndOrDamped, {forcesOrDamping}},
     {P::PredictAtSolids, "predict at solids", "fluid/predict", E::NearSolids, kEndOrDamped, {forcesOrDampingAtSolids}},
-    {P::KeepMouthsFree, "keep mouths free", "fluid/mouths", E::Particles, kEnd, {emits}},
+    {P::KeepMouthsFree, "keep mouths free", "fluid/mouths", E::NearMouths, kEnd, {emits}},
     {P::Drain, "drain", "fluid/drain", E::Particles, kEnd, kDrainsFluid},
 
     {P::MeasureDisplaced, "measure solids", "fluid/solids", E::NearSolids, kFigures, {solids}},
+    {P::MeasureMouths, "measure mouths", "fluid/mouth_density", E::NearMouths, kFigures, {emits}},
     {P::MeasureKeys, "measure keys", "fluid/keys", E::Keys, kFigures},
     {P::MeasureOrder, "measure order", "fluid/measure_order", E::Particles, kFigures},
     {P::Measure, "measure", "fluid/measure", E::Particles, kFigures, kAlways, kClusters},

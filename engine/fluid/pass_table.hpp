@@ -32,6 +32,7 @@ enum class FluidPass : uint8_t {
   SortConcentration,
   KeepConcentration,
   BuildList,
+  NearMouths,
   FinishRebuild,
   // A substep.
   MoveSolids,
@@ -42,6 +43,7 @@ enum class FluidPass : uint8_t {
   PushBodies,
   Iterate,
   DisplaceDensity,
+  MouthDensity,
   Density,
   Control,
   ShearViscosity,
@@ -81,6 +83,7 @@ enum class FluidPass : uint8_t {
   Drain,
   // Figures.
   MeasureDisplaced,
+  MeasureMouths,
   MeasureKeys,
   MeasureOrder,
   Measure,
@@ -117,6 +120,7 @@ enum class Extent : uint8_t {
   Chunks,      ///< all particles, a dispatch for each buffer of the neighbor list
   Gather,      ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
   NearSolids,  ///< particles near solids
+  NearMouths,  ///< particles near mouths of emitters
   Regions,     ///< regions that fall asleep on their own
   Bodies,      ///< rigid bodies
   ContactPoints,   ///< their sample points

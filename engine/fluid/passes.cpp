@@ -29,7 +29,7 @@ void FluidImpl::declareBegin(Graph& graph, double advance, bool queued, size_t p
   declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{static_cast<float>(advance), 0, queued});
   declare(graph, FluidPass::Begin, Start::Always,
           BeginPush{static_cast<float>(advance), advance > 0 ? drivenSpeed_ : 0.0f, queued, static_cast<uint32_t>(pulls),
-                    advance > 0 && (drivenMove_ || emitters)});
+                    advance > 0 && (drivenMove_ || emitters), emitters});
   if (!(advance > 0)) return;
   declare(graph, FluidPass::FallAsleep, Start::FallAsleep);
   declare(graph, FluidPass::LoadsAsleep);
@@ -53,6 +53,7 @@ void FluidImpl::declareRebuild(Graph& graph) {
   declare(graph, FluidPass::SortConcentration, Start::Rebuild);
   declare(graph, FluidPass::KeepConcentration, Start::Rebuild);
   declare(graph, FluidPass::BuildList, Start::Rebuild, ChunkPush{});
+  declare(graph, FluidPass::NearMouths, Start::Rebuild);
   declare(graph, FluidPass::FinishRebuild);
 }
 

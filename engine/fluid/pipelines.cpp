@@ -50,6 +50,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"NO_SLIP_SOLIDS", setup.noSlipSolids},
           {"REMOVES", setup.removes},
           {"OUTFLOW", setup.params.outflowLevel < kNoWall},
+          {"MOUTHS", !setup.emitters.empty()},
           {"FORCES", hasForces(setup)},
           {"TENSION", p.tensionRate > 0},
           {"REGIONS", p.regionsX != 0},
@@ -134,6 +135,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       return add(kOverNearSolids, {{"WALKS", true}}, choice.need);
     case Extent::NearSolids:
       return add(kOverNearSolids, {{"NEAR_SOLIDS", true}});
+    case Extent::NearMouths:
+      return add(kOverNearMouths, {});
     case Extent::Chunks:
       return add(kOverChunk, {}, choice.need);
     case Extent::Particles:

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/words.hpp"
+#include "fill/mouth.hpp"
 #include "fluid/boundaries.hpp"
 #include "fluid/flows.hpp"
 #include "fluid/fluids.hpp"
@@ -185,7 +186,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setup.held = setup.walls || holdsFluid(scene);
   // Where both walls of an axis can be within a support of the centers between them.
   for (int a = 0; a < 3 && scene.domain; ++a) setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * h;
-  if (!scene.solids.empty()) addHalfSpaceTable(kernel, setup);
+  if (!scene.solids.empty() || !emittersOf(scene).empty()) addHalfSpaceTable(kernel, setup);
   if (auto added = addSolids(scene, kernel, origin, setup); !added)
     return Error{added.error().kind, (scene.file.empty() ? "" : scene.file.string() + ": ") + added.error().message};
   p.solidCount = static_cast<uint32_t>(setup.solids.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <numeric>
 #include <tuple>
 
 #include "fluid/flows.hpp"
@@ -192,7 +193,13 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   staging_->add(slotOf(FluidArray::Control), s.control.data(), s.control.size() * 4);
   std::vector<uint32_t> sums = s.sums;
   if (setup.params.solidCount > 0) sums[offsetof(FluidSums, nearSolids) / 4] = static_cast<uint32_t>(nearSolidCount(s));
+  // Which particles are near mouths is not kept: until the next rebuild, all may be.
+  const auto nearMouths = static_cast<uint32_t>(setup.emitters.empty() ? 0 : s.id.size());
+  sums[offsetof(FluidSums, nearMouths) / 4] = nearMouths;
   staging_->add(slotOf(FluidArray::Sums), sums.size() * 4, bytesOf(sums));
+  std::vector<uint32_t> all(nearMouths);
+  std::iota(all.begin(), all.end(), 0u);
+  staging_->add(slotOf(FluidArray::NearMouths), all.size() * 4, bytesOf(all));
   std::vector<SolidRecord> solids = setup.solids;
   for (size_t k = 0; kPoseNumbers * k < s.solids.size(); ++k) solids[k].pose = poseAt(s.solids, k);
   for (DrivenSolid& driven : setup.driven) driven.pose = poseAt(s.solids, driven.solid);
@@ -246,6 +253,8 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   }
   if (rowOf(FluidArray::ListHead).length(shape) > 0) {
     std::vector<uint32_t> heads = layOutHeads(s);
+    if (nearMouths > 0)
+      for (uint32_t& head : heads) head |= kNearMouthsBit;
     const uint64_t bytes = heads.size() * 4;
     staging_->add(slotOf(FluidArray::ListHead), bytes, bytesOf(std::move(heads)));
   }

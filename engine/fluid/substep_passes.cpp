@@ -23,6 +23,7 @@ void FluidImpl::declareSubstep(Graph& graph, uint32_t parity, bool first) {
     }
     alias(Place, Prediction);
     declare(graph, FluidPass::DisplaceDensity, start, DisplacePush{iteration == 0});
+    declare(graph, FluidPass::MouthDensity, start, MouthDensityPush{iteration == 0});
     alias(Particle, Prediction);
     declare(graph, FluidPass::Density, start, DensityPush{0, 0, iteration, parity, first});
     declare(graph, FluidPass::Control, Start::Always, ControlPush{iteration, parity, first});

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "reference/mouths.hpp"
 #include "reference/solver.hpp"
 #include "shared/fluid_records.h"
 
@@ -39,9 +40,9 @@ std::vector<Pose> ReferenceSolver::poses(double t, double dt) const {
   return all;
 }
 
-SolidSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { return boundaryOf(x, poses(t, 0)); }
+SolidSample ReferenceSolver::boundaryAt(const glm::dvec3& x, double t) const { return boundaryOf(x, poses(t, 0), t); }
 
-SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose> solids) const {
+SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pose> solids, double t) const {
   SolidSample sum;
   forEachSample(x, solids, [&](size_t, const SolidSample& own, const Image& image) {
     const glm::dvec3 gradient = image.sign * vec(own.gradient);
@@ -49,7 +50,42 @@ SolidSample ReferenceSolver::boundaryOf(const glm::dvec3& x, std::span<const Pos
     for (int a = 0; a < 3; ++a) sum.gradient[static_cast<size_t>(a)] += gradient[a];
     sum.cover(own.value, {gradient.x, gradient.y, gradient.z});
   });
+  addMouths(x, t, sum);
   return sum;
+}
+
+void ReferenceSolver::addMouths(const glm::dvec3& x, double t, SolidSample& sample) const {
+  if (settings.emitters.empty()) return;
+  const auto halfSpaceAt = [this](double s) { return settings.tabulated ? halfSpace_.sample(s) : halfSpace(kernel_, s); };
+  std::vector<Image> images = imagesNear(x, walls_, kernel_.h());
+  images.insert(images.begin(), Image{});
+  for (const EmitterSettings& emitter : settings.emitters) {
+    SolidSample sum;
+    for (const Image& image : images) {
+      const SolidSample own = densityOfMouth(emitter, t, image.of(x), settings.spacing, halfSpaceAt);
+      const glm::dvec3 gradient = image.sign * vec(own.gradient);
+      sum.value += own.value;
+      for (int a = 0; a < 3; ++a) sum.gradient[static_cast<size_t>(a)] += gradient[a];
+    }
+    sample = unionOf(sample, sum);
+  }
+}
+
+double ReferenceSolver::emitterSpeed() const {
+  double fastest = 0;
+  for (const EmitterSettings& emitter : settings.emitters)
+    if (time_ >= emitter.from && time_ < emitter.until) fastest = std::max(fastest, glm::length(emitter.velocity) + emitter.motionSpeed);
+  return fastest;
+}
+
+void ReferenceSolver::keepMouthsFree(double dt) {
+  for (size_t i = 0; i < size(); ++i)
+    for (const EmitterSettings& emitter : settings.emitters) {
+      const Push push = pushOutOfMouth(emitter, time_, state.position[i], state.velocity[i], settings.spacing, dt);
+      if (push.displacement == glm::dvec3(0)) continue;
+      state.position[i] = collide(state.position[i] + push.displacement, {});
+      state.velocity[i] += push.velocity;
+    }
 }
 
 void ReferenceSolver::forEachSample(const glm::dvec3& x, std::span<const Pose> solids,

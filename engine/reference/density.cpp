@@ -42,7 +42,7 @@ void ReferenceSolver::density() {
   if (!settings.solids.empty()) scale_.resize(size());
   const double rest = kernel_.restGradientSum(), scale = densityScale();
   for (uint32_t i = 0; i < size(); ++i) {
-    boundary_[i] = boundaryOf(state.predicted[i], solids);
+    boundary_[i] = boundaryOf(state.predicted[i], solids, time_ + step_);
     double ratio = kernel_.value(0), squares = 0;
     const double own = inverseMass(i);
     glm::dvec3 sum = vec(boundary_[i].gradient);

@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 namespace rill::reference {
 namespace {
 
-/// How a rigid frame moves.
-struct Frame {
-  glm::dvec3 center, velocity, angularVelocity;
-  glm::dquat rotation;
-};
-
 glm::dquat quaternion(const Quaternion& q) { return {q.w, q.x, q.y, q.z}; }
 
-Frame frameAt(const EmitterSettings& e, double t) {
-  Frame frame{e.center, {}, {}, {1, 0, 0, 0}};
+}  // namespace
+
+MouthFrame mouthFrame(const EmitterSettings& e, double t) {
+  MouthFrame frame{e.center, {}, {}, {1, 0, 0, 0}};
   size_t next = 0;
   while (next < e.motion.size() && e.motion[next].at <= t) ++next;
   if (e.motion.empty()) return frame;
@@ -37,15 +32,13 @@ Frame frameAt(const EmitterSettings& e, double t) {
   return frame;
 }
 
-}  // namespace
-
 std::vector<Birth> births(const EmitterSettings& e, double t, const glm::dvec3& gravity) {
   std::vector<Birth> all;
   const double end = std::min(t, e.until);
   for (uint64_t layer = 0;; ++layer) {
     const double born = e.from + (static_cast<double>(layer) + 0.5) / e.rate, age = t - born;
     if (born > end) return all;
-    const Frame mouth = frameAt(e, born);
+    const MouthFrame mouth = mouthFrame(e, born);
     for (const glm::dvec3& point : e.points) {
       const glm::dvec3 arm = mouth.rotation * point;
       const glm::dvec3 velocity = mouth.rotation * e.velocity + mouth.velocity + glm::cross(mouth.angularVelocity, arm);

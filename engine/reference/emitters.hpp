@@ -1,6 +1,7 @@
 #pragma once
 // What leaves an emitter, in closed form and double precision, where nothing is in the way.
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -10,13 +11,26 @@ namespace rill::reference {
 
 /// A mouth and how fluid leaves it. Layers of `points` follow each other at `thickness`, so that the flow is at rest density.
 struct EmitterSettings {
-  glm::dvec3 center = {0, 0, 0};      ///< of the mouth, m
-  std::vector<glm::dvec3> points;     ///< of a layer in the mouth, relative to its center, m
-  glm::dvec3 velocity = {0, 0, 0};    ///< at which particles leave, relative to the mouth, m/s
-  double rate = 0;                    ///< layers a second, > 0
-  double from = 0, until = 0;         ///< s
-  std::vector<Keyframe> motion = {};  ///< of the mouth about its center
+  glm::dvec3 center = {0, 0, 0};                  ///< of the mouth, m
+  std::vector<glm::dvec3> points;                 ///< of a layer in the mouth, relative to its center, m
+  glm::dvec3 velocity = {0, 0, 0};                ///< at which particles leave, relative to the mouth, m/s
+  double rate = 0;                                ///< layers a second, > 0
+  double from = 0, until = 0;                     ///< s
+  std::vector<Keyframe> motion = {};              ///< of the mouth about its center
+  glm::dvec3 across = {1, 0, 0}, up = {0, 1, 0};  ///< unit vectors of the mouth's plane
+  double halfAcross = 0, halfUp = 0;              ///< m, half its size; of a disc its radius
+  bool isDisc = false;
+  double motionSpeed = 0;  ///< m/s, at most, of the mouth's own motion
 };
+
+/// How the frame of a mouth moves.
+struct MouthFrame {
+  glm::dvec3 center, velocity, angularVelocity;  ///< m, m/s, 1/s
+  glm::dquat rotation;
+};
+
+/// At time `t` (s).
+MouthFrame mouthFrame(const EmitterSettings& emitter, double t);
 
 struct Birth {
   double time = 0;                  ///< s

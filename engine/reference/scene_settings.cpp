@@ -3,10 +3,30 @@
 #include <cmath>
 #include <numbers>
 
+#include "fill/mouth.hpp"
 #include "fluid/fluids.hpp"
 #include "fluid/stability_limits.hpp"
 
 namespace rill::reference {
+namespace {
+
+EmitterSettings settingsOf(const Emitter& emitter, const EmitterRecord& r) {
+  return {.center = {r.centerX, r.centerY, r.centerZ},
+          .points = {},
+          .velocity = double{r.speed} * glm::dvec3(r.normalX, r.normalY, r.normalZ),
+          .rate = r.rate,
+          .from = r.from,
+          .until = r.until,
+          .motion = emitter.motion,
+          .across = {r.acrossX, r.acrossY, r.acrossZ},
+          .up = {r.upX, r.upY, r.upZ},
+          .halfAcross = r.halfAcross,
+          .halfUp = r.halfUp,
+          .isDisc = r.isDisc != 0,
+          .motionSpeed = r.motionSpeed};
+}
+
+}  // namespace
 
 ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const Double3& origin) {
   ReferenceSettings s;
@@ -38,6 +58,8 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
     s.outflowLevel = scene.domain->min.y + scene.domain->outflow->level - origin.y;
   }
   s.solids = scene.solids;
+  const std::vector<Emitter> emitters = emittersOf(scene);
+  for (size_t k = 0; k < emitters.size(); ++k) s.emitters.push_back(settingsOf(emitters[k], setup.emitters[k]));
   s.iterations = static_cast<int>(scene.solver.iterations);
   s.relaxation = setup.params.relaxationInMotion;
   s.relaxationAtRest = setup.params.relaxationAtRest;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/bodies.hpp"
+#include "reference/emitters.hpp"
 #include "rill/scene.hpp"
 #include "sph/interface_tension.hpp"
 
@@ -30,12 +31,13 @@ struct ReferenceSettings {
 
   glm::dvec3 lo = glm::dvec3(-std::numeric_limits<double>::infinity());  ///< m, walls; -infinity: open
   glm::dvec3 hi = glm::dvec3(std::numeric_limits<double>::infinity());   ///< m, walls; infinity: open
-  int outflowAxis = -1;           ///< of the side that is a wall up to a level only; negative: every wall is whole
-  bool outflowHigh = false;       ///< it is the high one
-  double outflowLevel = 0;        ///< m, along y
-  glm::dvec3 origin = {0, 0, 0};  ///< m, origin of the positions in scene coordinates
-  std::vector<Solid> solids;      ///< in scene coordinates; should not overlap each other or walls, since densities add up
-  bool tabulated = false;         ///< use the shaders' tables for solids instead of lattice sums
+  int outflowAxis = -1;                   ///< of the side that is a wall up to a level only; negative: every wall is whole
+  bool outflowHigh = false;               ///< it is the high one
+  double outflowLevel = 0;                ///< m, along y
+  glm::dvec3 origin = {0, 0, 0};          ///< m, origin of the positions in scene coordinates
+  std::vector<Solid> solids;              ///< in scene coordinates; should not overlap each other or walls, since densities add up
+  std::vector<EmitterSettings> emitters;  ///< nothing is born, but open mouths act on fluid beside them: see mouths.hpp
+  bool tabulated = false;                 ///< use the shaders' tables for solids instead of lattice sums
 
   int iterations = 1;         ///< Jacobi iterations per substep, >= 1
   double relaxation = 0.5;    ///< omega in motion, > 0 .. 2

@@ -51,7 +51,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   walls_.outflowHigh = settings.outflowHigh;
   walls_.outflowLevel = settings.outflowLevel;
   for (int a = 0; a < 3; ++a) walls_.margin = std::min(walls_.margin, (settings.hi[a] - settings.lo[a]) / 2);
-  if (!settings.solids.empty()) {
+  if (!settings.solids.empty() || !settings.emitters.empty()) {
     halfSpace_ = makeHalfSpaceTable(kernel_);
     noSlipTable_ = makeNoSlipTable(kernel_);
   }
@@ -160,6 +160,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
     surfaceTension(dt);
     done(Stage::SurfaceTension);
   }
+  keepMouthsFree(dt);
   predict(dt, dtNext);
   done(Stage::Prediction);
 }
@@ -224,7 +225,8 @@ double ReferenceSolver::keptPush(const glm::dvec3& moved, const glm::dvec3& push
 
 void ReferenceSolver::velocities(double dt) {
   const std::vector<Pose> solids = poses(time_, dt);
-  const double maxGain = dt * (std::clamp(std::max(0.5 * fastest_, 5 * bodies_.fastest()), settings.minSpeedGain, settings.maxSpeedGain) +
+  const double maxGain = dt * (std::clamp(std::max(0.5 * std::max(fastest_, emitterSpeed()), 5 * bodies_.fastest()), settings.minSpeedGain,
+                                          settings.maxSpeedGain) +
                                4 * dt * glm::length(settings.gravity));
   const double maxPush = maxGain + dt * settings.solidSpeed, maxPushOut = std::max(maxPush, maxGain + dt * bodies_.fastest());
   const AddReaction add = addTo(impulses_, solids, 1 / dt);

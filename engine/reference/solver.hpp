@@ -177,7 +177,10 @@ class ReferenceSolver {
   std::vector<Pose> poses(double t, double dt) const;  ///< of bodies: where they are predicted to be, else where they are
   void addContributions(double dt, std::span<const double> kept);
   void moveBodies(double dt);  ///< by the reaction since the last call
-  SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses) const;
+  SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses, double t) const;
+  void addMouths(const glm::dvec3& x, double t, SolidSample& sample) const;
+  void keepMouthsFree(double dt);
+  double emitterSpeed() const;  ///< m/s, of the fastest open mouth
   /// Calls visit(solid, sample, image) with what each solid displaces at each image of x, in the scene's frame and not reflected.
   void forEachSample(const glm::dvec3& x, std::span<const Pose> poses,
                      const std::function<void(size_t, const SolidSample&, const Image&)>& visit) const;

@@ -297,5 +297,5 @@ void main() {
   id[i] = own;
   if (SOLIDS && !asleep && listNear(i, x)) head |= kNearSolidsBit;
   if (asleep) head |= kAsleepBit;
-  if (LIST_CAPACITY != 0u || SOLIDS || REGIONS) listHead[i] = head;
+  if (LIST_CAPACITY != 0u || SOLIDS || MOUTHS || REGIONS) listHead[i] = head;
 }

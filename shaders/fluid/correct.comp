@@ -81,13 +81,16 @@ void storeAcceleration(uint i) {
 float endSubstep(uint i, uint head) {
   correction *= unit * params.gradientScale;
   warmDisplacement *= unit * params.gradientScale;
+  vec3 displaced = SOLIDS || MOUTHS ? unit * displacedAt(i, head).xyz : vec3(0.0);
   if (SOLIDS) {
-    vec3 displaced = unit * displacedAt(i, head).xyz;
     SolidScale scale = solidScaleAt(i, head);  // see docs/notes/walls-and-solids.md
     bool atSolids = (head & kNearSolidsBit) != 0u;
     vec3 excess = atSolids ? nearExcessAt(2u * i).xyz : vec3(0.0), warmExcess = atSolids ? nearExcessAt(2u * i + 1u).xyz : vec3(0.0);
     correction += scaledExcess(scale, correction) + excess + own.x * displaced;
     warmDisplacement += scaledExcess(scale, warmDisplacement) + warmExcess + own.y * displaced;
+  } else if (MOUTHS) {
+    correction += own.x * displaced;
+    warmDisplacement += own.y * displaced;
   }
   correction *= inverseMass;
   warmDisplacement *= inverseMass;

@@ -70,11 +70,11 @@ float updateMultiplier(uint i, uint head) {
   gradientSum *= params.gradientScale;
   gradientSquares *= params.gradientScale * params.gradientScale;
   SolidScale solids = kNoSolids;
-  if (SOLIDS) {
+  if (SOLIDS || MOUTHS) {
     vec4 displaced = displacedAt(i, head);
     gradientSum += displaced.xyz;
     rho += displaced.w;
-    solids = solidScaleAt(i, head);
+    if (SOLIDS) solids = solidScaleAt(i, head);
   }
 
   float constraint = isActive(here) ? rho - 1.0 : -1.0;  // inactive particles coincide; exclude them from the error

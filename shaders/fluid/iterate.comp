@@ -51,6 +51,8 @@ void main() {
     vec3 excess = (head & kNearSolidsBit) != 0u ? nearExcessAt(2u * i).xyz : vec3(0.0);
     moved += scaledExcess(solidScaleAt(i, head), moved) + excess + unit * own * displacedAt(i, head).xyz;
     if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = vec2(unit * own, 0.0);
+  } else if (MOUTHS) {
+    moved += unit * own * displacedAt(i, head).xyz;
   }
   prediction[i] = vec4(insideWalls(here + inverseMassOf(fluidOfWork(particle)) * moved), prediction[i].w);
 }

@@ -30,7 +30,7 @@ uint keyOf(uint i) {
 void main() {
   uint i = flatInvocation();
   if (REBUILDS && i == 0u) {
-    sums.nearSolids = 0u;
+    sums.nearSolids = sums.nearMouths = 0u;
     sums.overflow = 0u;
     sums.asleep = 0u;
     sums.columnCountX = sums.columnCountY = sums.columnCountZ = 0u;

@@ -70,7 +70,7 @@ void main() {
   if (!inRange) return;
   uint i = numberFromFloat(particle.w);
   rho *= densityScale();
-  if (SOLIDS) rho += displacedAt(i, listHeadAt(i)).w;
+  if (SOLIDS || MOUTHS) rho += displacedAt(i, listHeadAt(i)).w;
   velocity[i].w = rho;
   float error = rho - 1.0;
   if (error > 0.0) atomicAdd(histogram[binOf(error)], 1u);

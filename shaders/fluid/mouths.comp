@@ -13,15 +13,10 @@ layout(std430, binding = 4) writeonly buffer PredictionBlock { vec4 prediction[]
 READ_FLOAT4(5, warmAcceleration)
 layout(std430, binding = 6) readonly buffer EmitterBlock { EmitterRecord emitters[]; };
 layout(std430, binding = 7) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
+layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
+READ_UINT(9, nearMouths)
 #include "fluid/mouth_frame.glsl"
-
-// Whether the emitter is open now, and how far its layer has come, in layers.
-bool isOpen(uint e, out float phase) {
-  float now = control.timeHigh + control.timeLow;
-  float since = (control.timeHigh - emitters[e].doneHigh) + (control.timeLow - emitters[e].doneLow);
-  phase = min(float(emitters[e].due) + float(emitters[e].phase) / 4294967296.0 + emitters[e].rate * since, 1.5);
-  return emitters[e].rate > 0.0 && (emitters[e].blocked & kNoRoom) == 0u && now > emitters[e].from && now <= emitters[e].until;
-}
+#include "fluid/open_mouths.glsl"
 
 // The shortest displacement out of the piston; 0 if x is not in it.
 vec3 displacementOut(uint e, MouthFrame frame, float phase, vec3 x) {
@@ -41,16 +36,18 @@ vec3 displacementOut(uint e, MouthFrame frame, float phase, vec3 x) {
 }
 
 void main() {
-  uint i = flatInvocation();
-  if (i >= control.solved || control.phase != kPhaseAdvancing) return;
+  uint n = flatInvocation();
+  if (n >= sums.nearMouths || control.phase != kPhaseAdvancing) return;
+  uint i = nearMouthsAt(n);
+  if (i >= control.solved) return;
   vec3 x = position[i].xyz, v = velocity[i].xyz;
   if (!isActive(x)) return;
   bool pushed = false;
   for (uint e = 0u; e < params.emitterCount; ++e) {
-    float phase;
-    if (!isOpen(e, phase)) continue;
+    OpenMouth mouth;
+    if (!isOpen(e, 0.0, mouth)) continue;
     MouthFrame frame = mouthFrame(e, control.timeHigh + control.timeLow);
-    vec3 out_ = displacementOut(e, frame, phase, x);
+    vec3 out_ = displacementOut(e, frame, mouth.phase, x);
     float depth = length(out_);
     if (depth <= 1.0e-5 * params.spacing) continue;
     vec3 direction = out_ / depth, own = velocityAt(frame.pose, x);

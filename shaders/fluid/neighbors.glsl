@@ -68,7 +68,7 @@ uint nextNeighbor(inout uint j, uint entry) {
 
 // The list head of particle i; of none if it is not `inRange`.
 uint headOf(uint i, bool inRange) {
-  return (LIST_CAPACITY != 0u || SOLIDS || REGIONS) && inRange ? listHeadAt(i) : 0u;
+  return (LIST_CAPACITY != 0u || SOLIDS || MOUTHS || REGIONS) && inRange ? listHeadAt(i) : 0u;
 }
 
 // Whether the particle with this head is in a region that sleeps: it stays where it is.

@@ -34,12 +34,14 @@ float account(uint e) {
   emitters[e].doneHigh = control.timeHigh;
   emitters[e].doneLow = control.timeLow;
   emitters[e].age += all;
+  if (rate <= 0.0 || (emitters[e].blocked & kNoRoom) != 0u) emitters[e].opened = 0.0;
   if (rate <= 0.0) {
     emitters[e].blocked = 0u;
     return 0.0;
   }
   float closed = max(since(emitters[e].until, 0.0), 0.0), open = max(min(all, since(emitters[e].from, 0.0)) - closed, 0.0);
   float layers = min(rate * open, 1.0e6), whole = floor(layers);
+  emitters[e].opened = min(emitters[e].opened + layers, 1.0);
   uint share = min(uint((layers - whole) * 4294967296.0), 0xffffff00u), phase = emitters[e].phase + share;
   uint due = uint(whole) + uint(phase < share);
   emitters[e].phase = phase;

@@ -81,7 +81,7 @@ void main() {
   float rate = clamp(min(fittedRate(), kShearOfPairs * rateOfPairs()), kMinShearRate, kMaxShearRate);
   float viscosity = rheology.x / rate + rheology.y * pow(rate, rheology.z);
   // At a surface, and in a liquid, sums are less than in the lattice. Solids count with the density that they displace.
-  float whole = around + (SOLIDS ? params.shearMoment * displacedAt(i, head).w : 0.0);
+  float whole = around + (SOLIDS || MOUTHS ? params.shearMoment * displacedAt(i, head).w : 0.0);
   bool changes = rheology.x > 0.0 || rheology.z != 0.0;
   if (changes && whole > 0.0) viscosity *= clamp(params.shearMoment / max(whole, 1.0e-20), 1.0, kShearGain);
   vec3 rows = diagonal + abs(mixed.zxy) + abs(mixed.yzx);

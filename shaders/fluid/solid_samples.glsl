@@ -1,6 +1,6 @@
 // What solids do to a particle that they are near, in two arrays, each as large as the positions: nearDisplaced, the gradient of the
-// displaced density, with its value in w, undefined for others; and nearTangential, the diagonal of the tangential scale less 1, with the
-// rest packed in w, 0 for others.
+// displaced density, that of mouths included, with its value in w, undefined for others; and nearTangential, the diagonal of the tangential
+// scale less 1, with the rest packed in w, 0 for others.
 #ifndef RILL_SOLID_SAMPLES_GLSL
 #define RILL_SOLID_SAMPLES_GLSL
 #include "shared/arrays.glsl"
@@ -41,10 +41,12 @@ vec3 unpackMixed(float packed) {
 
 SolidScale unpackSolidScale(vec4 stored) { return SolidScale(1.0 + stored.xyz, unpackMixed(stored.w)); }
 
-// Of particle i with this list head; 0 where no solid is near.
+const uint kDisplacedBits = kNearSolidsBit | kNearMouthsBit;
+
+// Of particle i with this list head; 0 where no solid, and of the first no mouth, is near.
 #define READ_NEAR_DISPLACED(BINDING) \
   READ_FLOAT4(BINDING, nearDisplaced) \
-  vec4 displacedAt(uint i, uint head) { return (head & kNearSolidsBit) != 0u ? nearDisplacedAt(i) : vec4(0.0); }
+  vec4 displacedAt(uint i, uint head) { return (head & kDisplacedBits) != 0u ? nearDisplacedAt(i) : vec4(0.0); }
 #define READ_NEAR_TANGENTIAL(BINDING) \
   READ_FLOAT4(BINDING, nearTangential) \
   SolidScale solidScaleAt(uint i, uint head) { return unpackSolidScale((head & kNearSolidsBit) != 0u ? nearTangentialAt(i) : vec4(0.0)); }

@@ -26,7 +26,7 @@ void main() {
   uint i = push.first + local;
   if (i >= min(push.last, control.solved)) return;
   for (uint k = 0u; k < 3u; ++k) surfaceForce[3u * i + k] = 0;
-  uint head = LIST_CAPACITY != 0u || SOLIDS || REGIONS ? listHeadAt(i) : 0u;
+  uint head = LIST_CAPACITY != 0u || SOLIDS || MOUTHS || REGIONS ? listHeadAt(i) : 0u;
   vec3 x = particleAt(i).xyz;
   bool asleep = REGIONS && (head & kAsleepBit) != 0u;
   if (!isActive(x) || asleep || (isDeep(head, local) && !nearWall(x))) return;

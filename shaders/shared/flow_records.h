@@ -6,6 +6,7 @@ RILL_RECORDS_BEGIN
 
 RILL_CONST uint kMaxBornLayers = 4u;   // of an emitter at a rebuild; more wait for the next one
 RILL_CONST float kLateLayers = 0.25f;  // by how many layers a birth may be late before the list is rebuilt for it
+RILL_CONST float kThickestLayer = 1.5f;  // spacings, of a jet that bears pressure; thicker layers are single particles
 RILL_CONST float kNever = 1.0e30f;     // s
 RILL_CONST uint kHalfLayer = 0x80000000u;  // phase at the start: the first layer is due when half of it has left
 
@@ -32,6 +33,7 @@ struct EmitterRecord {
   // State.
   uint phase;                       // of the layer that leaves, in units of 2^-32
   uint due;                         // layers to be born at the next rebuilds
+  float opened;                     // layers that have left since it opened, at most 1
   float age, interval;              // s since the last of them was due, and between them
   float doneHigh, doneLow;          // s, the time up to which it is accounted for, as the sum of two floats
   uint emitted;                     // particles since the start

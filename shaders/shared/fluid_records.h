@@ -235,6 +235,7 @@ struct FluidSums {
   uint overflow;             // particles with more entries than the list holds, at the last build
   uint boundHits;            // loops cut at their bound since the start
   uint nearSolids;           // particles near a solid, at the last build
+  uint nearMouths;           // particles near an emitter's mouth, likewise
   uint bodySpeed;            // bits of the largest speed of a body's points
   // of the active particles inside the domain, at the last build: how many, and of their places
   // above its lower bounds, in spacings over kColumnUnits, the least, the largest and the 64-bit sum

@@ -28,13 +28,15 @@ RILL_CONST uint kDeepSegment = 30u;    // the far neighbors of a particle among 
 RILL_CONST uint kFarSegment = 31u;     // those of another
 
 // List head: the number of entries, kUnlisted if they are more than the list holds; whether a solid is near; whether the list is made of
-// segments; whether the particle sleeps; and the distance (particles) from which the first step starts.
+// segments; whether the particle sleeps; whether the mouth of an emitter is near; and the distance (particles) from which the first step
+// starts.
 RILL_CONST uint kUnlisted = 1023u;
 RILL_CONST uint kNearSolidsBit = 1024u;
 RILL_CONST uint kSegmentsBit = 2048u;
 RILL_CONST uint kAsleepBit = 4096u;
-RILL_CONST uint kHeadDistanceShift = 13u;
-RILL_CONST uint kMaxHeadDistance = (1u << 19) - 1u;
+RILL_CONST uint kNearMouthsBit = 8192u;
+RILL_CONST uint kHeadDistanceShift = 14u;
+RILL_CONST uint kMaxHeadDistance = (1u << 18) - 1u;
 
 RILL_RECORDS_END
 #endif

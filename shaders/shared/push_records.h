@@ -9,7 +9,8 @@ struct BeginPush {
   float drivenSpeed;   // m/s, the fastest driven solid of the advance
   uint queued;         // 1: only if the last advance has no time left; else that one continues
   uint pulls;          // as FluidControl has it
-  uint drives;         // 1: a driven solid moves in the advance
+  uint drives;         // 1: a driven solid moves in the advance, or an emitter has changed
+  uint mouths;         // 1: an emitter has changed
 };
 
 struct DensityPush {
@@ -27,6 +28,10 @@ struct ControlPush {
 
 struct DisplacePush {
   uint sumsStiffness;  // 1: of bodies, for the next substep
+};
+
+struct MouthDensityPush {
+  uint predicted;      // 1: the time of the positions is yet to come
 };
 
 struct LoadPush {

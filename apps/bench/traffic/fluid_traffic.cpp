@@ -13,7 +13,7 @@ namespace {
 /// The last count and list of a fluid.
 struct FluidCounts {
   double particles = 0, entries = 0;  // of a list
-  double nearSolids = 0;
+  double nearSolids = 0, nearMouths = 0;
 };
 
 const FluidPassRow* rowNamed(std::string_view name) {
@@ -48,6 +48,8 @@ double touched(const ArrayRow& row, double covered, const FluidCounts& counts) {
     case FluidArray::NearTangential:  // the list head says which particles are near: only those read the samples (solid_samples.glsl)
     case FluidArray::NearSolids:
       return std::min(covered, counts.nearSolids);
+    case FluidArray::NearMouths:
+      return std::min(covered, counts.nearMouths);
     default:
       return covered;
   }
@@ -88,6 +90,7 @@ Expected<FluidCounts> countsOf(Workbench& workbench, const FluidImpl& fluid) {
   FluidCounts counts;
   counts.particles = fluid.count;
   counts.nearSolids = sums->front().nearSolids;
+  counts.nearMouths = sums->front().nearMouths;
   double listed = 0;
   for (uint32_t i = 0; i < fluid.count && fluid.setup.params.listCapacity > 0; ++i) {
     const uint32_t entries = (*heads)[i] & kUnlisted;

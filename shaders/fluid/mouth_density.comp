@@ -1,0 +1,80 @@
+#version 460
+// Adds the density of the layers that have not left their mouths yet to what solids displace near a particle: fluid that has left is
+// under pressure, and would expand into the mouth until the next layer is born. See docs/notes/flows.md.
+#extension GL_GOOGLE_include_directive : require
+#include "fluid/uniforms.glsl"
+#include "fluid/images.glsl"
+#include "shared/arrays.glsl"
+#include "shared/flow_records.h"
+#include "shared/loops.glsl"
+#include "shared/neighbor_list.h"
+layout(local_size_x = kFluidGroup) in;
+layout(push_constant) uniform Push { MouthDensityPush push; };
+READ_FLOAT4(2, place)
+layout(std430, binding = 3) readonly buffer SumsBlock { FluidSums sums; };
+READ_UINT(4, nearMouths)
+READ_FLOAT4(5, table)
+READ_UINT(6, listHead)
+layout(std430, binding = 7) buffer DisplacedBlock { vec4 nearDisplaced[]; };
+layout(std430, binding = 8) readonly buffer EmitterBlock { EmitterRecord emitters[]; };
+layout(std430, binding = 9) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
+#include "fluid/half_space.glsl"
+#include "fluid/mouth_frame.glsl"
+#include "fluid/open_mouths.glsl"
+
+// Of a slab between two planes at x: value and slope.
+vec2 slab(float x, float low, float high) {
+  vec2 near = face(x - high), far = face(x - low);
+  return near - far;
+}
+
+// What the slab displaces that lies in front of the mouth, behind the last layer. Gradient, and the value in w.
+vec4 mouthSample(uint e, MouthFrame frame, OpenMouth mouth, vec3 x) {
+  float thickness = emitters[e].speed / emitters[e].rate, d = params.spacing;
+  if (thickness > kThickestLayer * d) return vec4(0.0);  // single particles, which do not touch
+  float back = -0.5 * min(thickness, d), front = (mouth.phase - 0.5) * thickness;
+  if (front <= back) return vec4(0.0);
+  vec3 from = x - centerOf(frame.pose);
+  vec2 along = slab(dot(from, frame.normal), back, front), side = vec2(dot(from, frame.across), dot(from, frame.up));
+  vec2 half_ = vec2(emitters[e].halfAcross, emitters[e].halfUp);
+  if (emitters[e].isDisc != 0u) {
+    float radius = length(side), around = 1.0 - 2.0 * face(half_.x).x;
+    vec2 radial = around * slab(radius, -half_.x, half_.x);
+    vec3 outward = (side.x * frame.across + side.y * frame.up) / max(radius, 1.0e-20);
+    return mouth.strength * vec4(along.y * radial.x * frame.normal + along.x * radial.y * outward, along.x * radial.x);
+  }
+  vec2 across = slab(side.x, -half_.x, half_.x), up = slab(side.y, -half_.y, half_.y);
+  vec3 gradient = along.y * across.x * up.x * frame.normal + along.x * (across.y * up.x * frame.across + across.x * up.y * frame.up);
+  return mouth.strength * vec4(gradient, along.x * across.x * up.x);
+}
+
+// Of the mouth and its images behind walls.
+vec4 reflectedSample(uint e, MouthFrame frame, OpenMouth mouth, vec3 x) {
+  vec4 sum = vec4(0.0);
+  Images images = imagesNear(x, params.support);
+  bool more = true;
+  LOOP_WHILE (more) {
+    vec3 signs, image = imageOf(nextImage(images), x, signs);
+    vec4 one = mouthSample(e, frame, mouth, image);
+    sum += vec4(signs * one.xyz, one.w);
+    more = advance(images);
+  } LOOP_END(more);
+  return sum;
+}
+
+void main() {
+  uint n = flatInvocation();
+  if (n >= sums.nearMouths) return;
+  uint i = nearMouthsAt(n);
+  vec3 x = placeAt(i).xyz;
+  float later = push.predicted != 0u ? ahead() : 0.0;
+  vec4 displaced = SOLIDS && (listHeadAt(i) & kNearSolidsBit) != 0u ? nearDisplaced[i] : vec4(0.0);
+  for (uint e = 0u; e < params.emitterCount && isActive(x); ++e) {
+    OpenMouth mouth;
+    if (!isOpen(e, later, mouth)) continue;
+    vec4 own = reflectedSample(e, mouthFrame(e, control.timeHigh + control.timeLow + later), mouth, x);
+    vec3 gradient = displaced.xyz * (1.0 - own.w) + own.xyz * (1.0 - displaced.w);  // of their union
+    displaced = vec4(gradient, displaced.w + own.w * (1.0 - displaced.w));
+  }
+  nearDisplaced[i] = displaced;
+}

@@ -1,0 +1,119 @@
+// What open mouths do to fluid beside them, against the reference, until their first layers are born.
+#include "fluid/flows_fixture.hpp"
+
+namespace rill::test {
+namespace mouths_test {
+
+using flows_test::disc;
+using flows_test::turn;
+
+/// Fluid around a mouth in its middle, which has let out three tenths of a layer after eight substeps.
+Trial fluidAround(const Emitter& emitter) {
+  Trial t = trial();
+  t.scene.solver.tolerance = 0;
+  t.scene.emitters = {emitter};
+  t.x = block({8, 8, 8}, t.d(), glm::dvec3(-4 * t.d()), 0.2);
+  t.capacity = 600;
+  return t;
+}
+
+double slowSpeed(const Trial& t) { return 0.3 * t.d() / (8 * t.step); }
+
+class MouthsTest : public FluidTest {
+ protected:
+  /// The reference differs without the mouth, by more than the device may.
+  void expectActs(const Trial& t) {
+    Trial without = t;
+    without.scene.emitters.clear();
+    if (without.scene.domain) without.scene.domain->inflow.reset();
+    Oracle with(t), other(without);
+    with.advance(8);
+    other.advance(8);
+    double most = 0;
+    for (size_t i = 0; i < t.x.size(); ++i)
+      most = std::max(most, glm::length(with.solver().state.position[i] - other.solver().state.position[i]));
+    EXPECT_GT(most, 0.05 * t.d());
+  }
+};
+
+TEST_F(MouthsTest, DiscMatchesReference) {
+  Trial t = fluidAround(disc({0, 0, 0}, 0.12, {1, 2, 0.5}, 1));
+  t.scene.emitters[0].speed = slowSpeed(t);
+  expectActs(t);
+  expectEqual(t, 8, 2e-4, 2e-3, 1e-3);
+}
+
+TEST_F(MouthsTest, RectangleThatTurnsMatchesReference) {
+  Trial t = fluidAround({.mouth = RectMouth{{0, 0, 0}, {0.26, 0.13}, {0, -1, 0}, {1, 0, 1}}});
+  t.scene.emitters[0].speed = slowSpeed(t);
+  t.scene.emitters[0].motion = {{.at = 0}, {.at = 0.02, .translate = {0.01, 0, 0.02}, .rotate = turn({0, 0, 1}, 0.3)}};
+  expectActs(t);
+  expectEqual(t, 8, 2e-4, 2e-3, 1e-3);
+}
+
+// Images of the fluid in the mouth stand behind the walls that it lies beside, and beside a solid the two are one.
+TEST_F(MouthsTest, InflowBesideWallsAndASolidMatchesReference) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 0.5});
+  t.scene.solver.tolerance = 0;
+  t.scene.solids = {slab({0, 0, 0}, {0.25, 0.1, 0.2})};
+  t.scene.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.3, .speed = slowSpeed(t)};
+  addOutsideSolids(t, block({6, 6, 8}, t.d(), {t.d(), 0, 0}, 0.05));
+  t.capacity = 1000;
+  expectActs(t);
+  expectEqual(t, 8, 2e-4, 2e-3, 1e-3);
+}
+
+// Iterations take the mouth's density, too.
+TEST_F(MouthsTest, SeveralIterationsMatchReference) {
+  Trial t = fluidAround(disc({0, 0, 0}, 0.15, {0, 1, 0}, 1));
+  t.scene.emitters[0].speed = slowSpeed(t);
+  t.scene.solver.iterations = 3;
+  expectEqual(t, 8, 4e-4, 4e-3);
+}
+
+// Water under its own weight that flows in keeps the speed of the inflow at any step: what has left the mouth is held by what follows.
+TEST_F(MouthsTest, InflowUnderItsOwnWeightKeepsItsSpeedAtAnyStep) {
+  for (const double step : {1e-3, 0.25e-3}) {
+    Trial t = trial();
+    t.scene.fluid.spacing = 0.02;
+    t.scene.solver = SolverSettings{};
+    setWalls(t, {1.2, 0.3, 0.12}, SideMask{1u << sideBit(Axis::PlusX)});
+    t.scene.domain->open_removes = true;
+    t.scene.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.1, .speed = 3};
+    t.capacity = 4000;
+    t.step = step;
+    auto run = start(t);
+    for (int frame = 0; frame < 15; ++frame) run->advance(1.0 / 60);
+    const Snapshot after = run->snapshot();
+    double most = 0;
+    size_t behind = 0;  // the front, which falls like a dam's
+    for (size_t i = 0; i < after.x.size(); ++i) {
+      if (!(after.x[i].x < 0.3)) continue;
+      most = std::max(most, glm::length(after.v[i] - glm::dvec3(3, 0, 0)));
+      ++behind;
+    }
+    EXPECT_GT(behind, 400u);
+    EXPECT_LT(most, 0.15) << "step " << step;
+    EXPECT_LT(run->stats().densityErrorMax, 0.01) << "step " << step;
+  }
+}
+
+// A tap that is drawn on a wall works as an inflow does: its layers do not wait at the wall for the first half spacing.
+TEST_F(MouthsTest, MouthOnAWallEqualsOneHalfASpacingOffIt) {
+  std::vector<Snapshot> ends;
+  for (const double off : {0.0, 0.5}) {
+    Trial t = trial();
+    setWalls(t, {1, 1, 0.5});
+    t.scene.emitters = {{.mouth = RectMouth{{off * t.d(), 0.5, 0.25}, {0.25, 0.25}, {1, 0, 0}}, .speed = 1}};
+    t.capacity = 1000;
+    auto run = start(t);
+    run->advance(0.2);
+    ends.push_back(run->snapshot());
+  }
+  EXPECT_GT(ends[0].x.size(), 30u);
+  EXPECT_EQ(ends[0], ends[1]);
+}
+
+}  // namespace mouths_test
+}  // namespace rill::test
