@@ -83,8 +83,8 @@ TEST_F(CountedMemory, DisabledFeaturesHaveNoBuffer) {
     return bytes;
   };
   const auto expectOff = [&](std::string_view name) { EXPECT_LE(bytesOf(name), 64u) << name; };  // a binding must be something
-  for (const char* name : {"multipliers", "pressure probes", "density that solids displace", "tangential scales at solids",
-                           "particles near solids", "rigid bodies", "pulls of bodies"})
+  for (const char* name : {"multipliers", "pressure probes", "density that solids and mouths displace", "tangential scales at solids",
+                           "particles near solids", "particles near mouths", "rigid bodies", "pulls of bodies"})
     expectOff(name);
   for (const char* name : {"warm-start accelerations", "warm-start multipliers", "list heads", "neighbor list"})
     EXPECT_GE(bytesOf(name), 4000u) << name;
