@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh_plane.hpp"
 #include "core/overloaded.hpp"
 #include "core/vector_math.hpp"
+#include "fill/mesh_mouth.hpp"
 
 namespace rill {
 namespace {
@@ -16,16 +18,19 @@ Double3 axisAcross(const Double3& v) {
   return x <= y && x <= z ? Double3{1, 0, 0} : y <= z ? Double3{0, 1, 0} : Double3{0, 0, 1};
 }
 
+/// How many samples a mouth has along a side of a size (m).
+double samplesAlong(double size, double spacing) {
+  constexpr double kMax = 16;
+  return std::clamp(std::round(size / spacing), 1.0, kMax);
+}
+
 /// Centers of the cells of a grid over a rectangle, those that `inside` takes; its arguments are -1 .. 1.
 template <class Inside>
 std::vector<Double3> gridOf(const RectMouth& mouth, double spacing, const Inside& inside) {
   const Double3 across = normalized(cross(mouth.normal, mouth.up)), up = normalized(cross(across, mouth.normal));
   const double size[2] = {mouth.size.first, mouth.size.second};
   int count[2];
-  for (int i = 0; i < 2; ++i) {
-    constexpr double kMax = 16;
-    count[i] = static_cast<int>(std::clamp(std::round(size[i] / spacing), 1.0, kMax));
-  }
+  for (int i = 0; i < 2; ++i) { count[i] = static_cast<int>(samplesAlong(size[i], spacing)); }
   std::vector<Double3> points;
   for (int j = 0; j < count[1]; ++j) {
     for (int i = 0; i < count[0]; ++i) {
@@ -36,21 +41,50 @@ std::vector<Double3> gridOf(const RectMouth& mouth, double spacing, const Inside
   return points;
 }
 
+/// Those of a grid over the bounds of a mesh that are in it.
+std::vector<Double3> samplesOf(const FlatMouth& flat, double spacing) {
+  MouthGrid grid;
+  for (size_t k = 0; k < 2; ++k) {
+    const double size = flat.high[k] - flat.low[k];
+    grid.pitch[k] = size / samplesAlong(size, spacing);
+    grid.first[k] = flat.low[k] + grid.pitch[k] / 2;
+  }
+  std::vector<Double3> points;
+  for (const MouthPoint& point : pointsIn(flat, grid)) points.push_back(inScene(flat, point));
+  if (points.empty()) points.push_back(inScene(flat, middleOf(flat)));
+  return points;
+}
+
+/// The largest distance of a vertex from the origin, m.
+double reachOf(const MeshData& data) {
+  double reach = 0;
+  for (const auto& triangle : data.triangles)
+    for (const uint32_t corner : triangle) reach = std::max(reach, length(data.vertices[corner]));
+  return reach;
+}
+
 }  // namespace
 
 double areaOf(const Mouth& mouth) {
   return std::visit(Overloaded{[](const DiscMouth& disc) { return std::numbers::pi * disc.radius * disc.radius; },
-                               [](const RectMouth& rect) { return rect.size.first * rect.size.second; }},
+                               [](const RectMouth& rect) { return rect.size.first * rect.size.second; },
+                               [](const MeshMouth& mesh) { return planeOf(mesh.mesh->data()).area; }},
                     mouth);
 }
 
 Double3 centerOf(const Mouth& mouth) {
-  return std::visit([](const auto& shape) { return shape.center; }, mouth);
+  return std::visit(
+      Overloaded{[](const MeshMouth& mesh) { return flatMouth(mesh).center; }, [](const auto& shape) { return shape.center; }}, mouth);
+}
+
+Double3 pivotOf(const Mouth& mouth) {
+  return std::visit(Overloaded{[](const MeshMouth& mesh) { return mesh.translation; }, [](const auto& shape) { return shape.center; }},
+                    mouth);
 }
 
 double flowOf(const Emitter& emitter) { return emitter.flow > 0 ? emitter.flow : emitter.speed * areaOf(emitter.mouth); }
 
-Pose mouthPose(const Emitter& emitter, double t) { return keyframedPose(emitter.motion, centerOf(emitter.mouth), {0, 0, 0, 1}, t); }
+Pose mouthPose(const Emitter& emitter, double t) { return keyframedPose(emitter.motion, pivotOf(emitter.mouth), {0, 0, 0, 1}, t); }
 
 Mouth mouthAt(const Emitter& emitter, double t) {
   const Pose pose = mouthPose(emitter, t);
@@ -61,13 +95,19 @@ Mouth mouthAt(const Emitter& emitter, double t) {
                                [&](RectMouth rect) -> Mouth {
                                  rect.center = pose.center, rect.normal = toScene(pose, rect.normal), rect.up = toScene(pose, rect.up);
                                  return rect;
+                               },
+                               [&](MeshMouth mesh) -> Mouth {
+                                 const Pose placed = keyframedPose(emitter.motion, mesh.translation, mesh.rotation, t);
+                                 mesh.translation = placed.center, mesh.rotation = placed.rotation;
+                                 return mesh;
                                }},
                     emitter.mouth);
 }
 
 double fastestMouth(const Emitter& emitter) {
   const double radius = std::visit(Overloaded{[](const DiscMouth& disc) { return disc.radius; },
-                                              [](const RectMouth& rect) { return std::hypot(rect.size.first, rect.size.second) / 2; }},
+                                              [](const RectMouth& rect) { return std::hypot(rect.size.first, rect.size.second) / 2; },
+                                              [](const MeshMouth& mesh) { return reachOf(mesh.mesh->data()); }},
                                    emitter.mouth);
   double fastest = 0;
   for (size_t k = 1; k < emitter.motion.size(); ++k) {
@@ -101,6 +141,7 @@ std::vector<Emitter> emittersOf(const Scene& scene) {
 
 std::vector<Double3> samplesOf(const Mouth& mouth, double spacing) {
   if (const auto* rect = std::get_if<RectMouth>(&mouth)) return gridOf(*rect, spacing, [](double, double) { return true; });
+  if (const auto* mesh = std::get_if<MeshMouth>(&mouth)) return samplesOf(flatMouth(*mesh), spacing);
   const auto& disc = std::get<DiscMouth>(mouth);
   const RectMouth square{disc.center, {2 * disc.radius, 2 * disc.radius}, disc.normal, axisAcross(disc.normal)};
   return gridOf(square, spacing, [](double u, double v) { return u * u + v * v < 1; });

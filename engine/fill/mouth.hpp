@@ -9,12 +9,14 @@ namespace rill {
 
 /// m^2.
 double areaOf(const Mouth& mouth);
-/// m, scene coordinates.
+/// m, scene coordinates; of a mesh its centroid.
 Double3 centerOf(const Mouth& mouth);
+/// What its motion turns it about, m, scene coordinates: the center, of a mesh its origin.
+Double3 pivotOf(const Mouth& mouth);
 /// m^3/s, from `flow` or `speed`.
 double flowOf(const Emitter& emitter);
 
-/// The mouth's frame at `t` (s); without motion its axes are those of the scene.
+/// The frame of the mouth's pivot at `t` (s); without motion its axes are those of the scene.
 Pose mouthPose(const Emitter& emitter, double t);
 /// The mouth as its motion leaves it at `t` (s).
 Mouth mouthAt(const Emitter& emitter, double t);

@@ -58,7 +58,7 @@ Expected<ParticleSet> placeAll(const Scene& scene, std::vector<FillSource>& sour
 
   if (all.empty()) {
     for (const Emitter& emitter : scene.emitters) {
-      const Double3 p = mouthPose(emitter, 0).center;
+      const Double3 p = centerOf(mouthAt(emitter, 0));
       all.add(p.x, p.y, p.z);
     }
   }

@@ -5,48 +5,16 @@
 #include <bit>
 #include <cmath>
 
+#include "core/overloaded.hpp"
 #include "core/vector_math.hpp"
 #include "core/words.hpp"
+#include "fill/mesh_mouth.hpp"
 #include "fill/mouth.hpp"
 #include "fluid/numbers.hpp"
 #include "shape/records.hpp"
 
 namespace rill {
 namespace {
-
-/// A unit vector across a unit vector.
-Double3 anyAcross(const Double3& v) { return normalized(cross(std::abs(v.y) < 0.9 ? Double3{0, 1, 0} : Double3{0, 0, 1}, v)); }
-
-/// Points of a square lattice of pitch 1 inside a circle; `first`: of a point.
-std::vector<std::array<double, 2>> pointsInCircle(double radius, const std::array<double, 2>& first) {
-  std::vector<std::array<double, 2>> points;
-  const double steps = std::ceil(radius) + 1;
-  for (double j = -steps; j <= steps; ++j)
-    for (double i = -steps; i <= steps; ++i)
-      if (std::hypot(i + first[0], j + first[1]) < radius) points.push_back({i + first[0], j + first[1]});
-  return points;
-}
-
-// Of three ways to center the lattice, the one whose number of points is nearest to the area's. Its pitch is then scaled so that it is the
-// area's.
-void fillDisc(double radius, double spacing, MouthLattice& lattice) {
-  const double wanted = lattice.area / (spacing * spacing);
-  std::vector<std::array<double, 2>> best = {{0, 0}};
-  for (const std::array<double, 2>& first : {std::array{0.0, 0.0}, {0.5, 0.5}, {0.5, 0.0}}) {
-    std::vector<std::array<double, 2>> points = pointsInCircle(radius / spacing, first);
-    const auto off = [&](const auto& some) { return std::abs(static_cast<double>(some.size()) - wanted); };
-    if (!points.empty() && off(points) < off(best)) best = std::move(points);
-  }
-  const double pitch = std::sqrt(lattice.area / static_cast<double>(best.size()));
-  for (const auto& [x, y] : best) lattice.points.push_back({f(pitch * x), f(pitch * y)});
-}
-
-void fillRect(const std::pair<double, double>& size, double spacing, MouthLattice& lattice) {
-  const double columns = std::max(1.0, std::round(size.first / spacing)), rows = std::max(1.0, std::round(size.second / spacing));
-  for (double j = 0; j < rows; ++j)
-    for (double i = 0; i < columns; ++i)
-      lattice.points.push_back({f(size.first * ((i + 0.5) / columns - 0.5)), f(size.second * ((j + 0.5) / rows - 0.5))});
-}
 
 /// Where a mouth that lies on a wall, and faces away from it, is taken to be: half a spacing off it, as the first layer of particles is.
 Double3 offWalls(const Scene& scene, Double3 center, const Double3& normal) {
@@ -67,15 +35,25 @@ float secondsOrNever(const std::optional<double>& time) { return time ? f(std::m
 /// Substeps move particles by cfl spacings at most, and there are max_substeps of them in 1/60 s.
 double fastestFollowed(const Scene& scene) { return scene.solver.cfl * scene.fluid.spacing * scene.solver.max_substeps * 60; }
 
+Error badEmitter(const Scene& scene, const std::string& key, const std::string& what) {
+  return {ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + ": " + what};
+}
+
 Expected<void> checkEmitter(const Scene& scene, const Emitter& emitter, const std::string& key, FluidSetup& setup) {
   constexpr double kMaxPoints = 1 << 20, kMaxSpeed = 1e9;
   const double spacing = scene.fluid.spacing, area = areaOf(emitter.mouth), points = area / (spacing * spacing);
-  const auto bad = [&](const std::string& what) {
-    return Error{ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + ": " + what};
-  };
+  const auto bad = [&](const std::string& what) { return badEmitter(scene, key, what); };
   if (!(points + static_cast<double>(setup.mouthPoints.size()) <= kMaxPoints))
     return bad("its mouth takes " + roundedNumber(points) + " particles of fluid.spacing a layer; expected at most, of all emitters, " +
                grouped(static_cast<uint64_t>(kMaxPoints)));
+  if (const auto* mesh = std::get_if<MeshMouth>(&emitter.mouth)) {
+    constexpr double kMaxRows = 1 << 18;
+    const double rows = rowsOf(flatMouth(*mesh), std::min(spacing, std::sqrt(area)));
+    if (!(rows <= kMaxRows))
+      return bad("the triangles of its mesh lie in " + roundedNumber(rows) + " rows of a lattice of fluid.spacing, rows that several are " +
+                 "in counted for each; expected at most " + grouped(static_cast<uint64_t>(kMaxRows)));
+    for (const std::string& warning : mesh->mesh->warnings()) setup.warnings.push_back(key + ".mesh: " + warning);
+  }
   const double speed = flowOf(emitter) / area, own = fastestMouth(emitter);
   if (!(speed <= kMaxSpeed))
     return bad("fluid leaves its mouth at " + roundedNumber(speed) + " m/s; expected at most " + roundedNumber(kMaxSpeed) + " m/s");
@@ -118,24 +96,6 @@ DrainRecord recordOf(const Drain& drain, const Double3& origin) {
 
 }  // namespace
 
-MouthLattice mouthLattice(const Mouth& mouth, double spacing) {
-  MouthLattice lattice;
-  const auto* disc = std::get_if<DiscMouth>(&mouth);
-  const auto* rect = std::get_if<RectMouth>(&mouth);
-  lattice.center = disc ? disc->center : rect->center;
-  lattice.normal = normalized(disc ? disc->normal : rect->normal);
-  lattice.across = disc ? anyAcross(lattice.normal) : normalized(cross(lattice.normal, normalized(rect->up)));
-  lattice.up = cross(lattice.across, lattice.normal);
-  lattice.area = areaOf(mouth);
-  lattice.half = disc ? std::pair{disc->radius, disc->radius} : std::pair{rect->size.first / 2, rect->size.second / 2};
-  if (disc)
-    fillDisc(disc->radius, spacing, lattice);
-  else
-    fillRect(rect->size, spacing, lattice);
-  lattice.thickness = static_cast<double>(lattice.points.size()) * spacing * spacing * spacing / lattice.area;
-  return lattice;
-}
-
 double fastestEmitter(const Scene& scene) {
   double fastest = 0;
   for (const Emitter& emitter : emittersOf(scene))
@@ -163,6 +123,10 @@ Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& s
     ++number;
     if (auto able = checkEmitter(scene, emitter, key, setup); !able) return able;
     const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);
+    if (lattice.shared > 0)
+      return badEmitter(scene, key + ".mesh",
+                        grouped(lattice.shared) + " of " + grouped(lattice.points.size()) +
+                            " points of a layer are in several triangles; expected a mesh that does not overlap itself");
     EmitterRecord r{};
     place(r, minus(offWalls(scene, lattice.center, lattice.normal), origin));
     setAxes(r, lattice.normal, lattice.across, lattice.up);
@@ -173,7 +137,10 @@ Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& s
     r.until = secondsOrNever(emitter.until);
     r.firstPoint = static_cast<uint32_t>(setup.mouthPoints.size());
     r.points = static_cast<uint32_t>(lattice.points.size());
-    r.isDisc = std::holds_alternative<DiscMouth>(emitter.mouth) ? 1 : 0;
+    r.shape = std::visit(Overloaded{[](const DiscMouth&) { return kDiscMouth; }, [](const RectMouth&) { return kRectMouth; },
+                                    [](const MeshMouth&) { return kMeshMouth; }},
+                         emitter.mouth);
+    r.armX = f(lattice.arm.x), r.armY = f(lattice.arm.y), r.armZ = f(lattice.arm.z);
     r.phase = kHalfLayer;
     r.fluid = static_cast<uint32_t>(fluidIndex(scene, emitter.fluid));
     addMotion(emitter, r, setup.keyframes);

@@ -17,6 +17,8 @@ struct MouthLattice {
   std::vector<std::array<float, 2>> points = {};  ///< m, along `across` and `up` from the center; at least one
   double area = 0;                                ///< m^2, of the mouth
   double thickness = 0;                           ///< m, of a layer
+  Double3 arm = {0, 0, 0};                        ///< m, from what its motion turns it about to the center
+  size_t shared = 0;                              ///< points of a mesh that were left out, since several triangles have them
 };
 MouthLattice mouthLattice(const Mouth& mouth, double spacing);
 

@@ -172,7 +172,8 @@ void FluidImpl::resumeFlows(const FluidSnapshot& s) {
     EmitterRecord saved;
     next(saved);
     saved.from = emitter.from, saved.until = emitter.until;
-    saved.firstPoint = emitter.firstPoint, saved.points = emitter.points, saved.isDisc = emitter.isDisc;
+    saved.firstPoint = emitter.firstPoint, saved.points = emitter.points, saved.shape = emitter.shape;
+    saved.armX = emitter.armX, saved.armY = emitter.armY, saved.armZ = emitter.armZ;
     saved.fluid = emitter.fluid;
     saved.firstKey = emitter.firstKey, saved.keyCount = emitter.keyCount, saved.motionSpeed = emitter.motionSpeed;
     emitter = saved;

@@ -21,8 +21,8 @@ class Checker {
       using Value = typename std::remove_cvref_t<decltype(field)>::Value;
       if constexpr (model::kHasMember<Value>) {
         const Value* member = field.find(owner);
-        if constexpr (std::is_same_v<Owner, MeshShape> && std::is_same_v<Value, std::filesystem::path>)
-          return;  // a host has a mesh instead
+        constexpr bool kIsMesh = std::is_same_v<Owner, MeshShape> || std::is_same_v<Owner, MeshMouth>;
+        if constexpr (kIsMesh && std::is_same_v<Value, std::filesystem::path>) return;  // a host has a mesh instead
         const auto choice =
             std::ranges::find_if(choices, [&](const auto& keys) { return std::ranges::find(keys, field.info.key) != keys.end(); });
         if (!ok || member == nullptr || (choice != choices.end() && !given(*member))) return;

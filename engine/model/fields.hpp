@@ -58,8 +58,6 @@ struct Table<SphereShape> {
                                      Field{Info{.key = "radius", .unit = "m", .range = above(0), .help = "radius"}, &SphereShape::radius}};
 };
 
-inline constexpr std::array<std::string_view, 2> kUpWords{"y", "z"};  // UpAxis
-
 template <>
 struct Table<MeshShape> {
   static constexpr std::string_view about = "A triangle mesh";

@@ -9,6 +9,8 @@ namespace rill::model {
 
 inline constexpr std::array<std::string_view, 6> kAxisWords{"+x", "-x", "+y", "-y", "+z", "-z"};  // Axis
 
+inline constexpr std::array<std::string_view, 2> kUpWords{"y", "z"};  // UpAxis
+
 inline constexpr size_t kMaxEmitters = 256, kMaxDrains = 256;
 
 template <>
@@ -34,14 +36,30 @@ struct Table<RectMouth> {
 };
 
 template <>
+struct Table<MeshMouth> {
+  static constexpr std::string_view about = "A mouth of any outline: a flat mesh, whose triangles do not overlap";
+  static constexpr std::array one_of = kNoWords;
+  static constexpr std::tuple fields{
+      Field{Info{.key = "file", .help = "OBJ, STL, PLY, glTF or GLB file; the path is relative to the scene file", .required = true},
+            &MeshMouth::file},
+      Field{Info{.key = "scale", .unit = "m", .range = above(0), .help = "length of a unit of the file"}, &MeshMouth::scale},
+      Field{Info{.key = "up", .help = "axis of the file that points up", .words = kUpWords}, &MeshMouth::up},
+      Field{Info{.key = "translation", .unit = "m", .help = "translation after the rotation [x, y, z]"}, &MeshMouth::translation},
+      Field{Info{.key = "rotation", .help = "rotation about the mesh's origin: a quaternion [x, y, z, w]; normalized when read"},
+            &MeshMouth::rotation}};
+};
+
+template <>
 struct Table<Emitter> {
   static constexpr std::string_view about = "A source of fluid";
-  static constexpr std::array<std::string_view, 2> one_of{"disc", "rect"};
+  static constexpr std::array<std::string_view, 3> one_of{"disc", "rect", "mesh"};
   static constexpr std::array<std::string_view, 2> one_of_too{"flow", "speed"};
   static constexpr std::tuple fields{
       Field{Info{.key = "name", .help = "name of the emitter; unique among emitters and drains, or empty"}, &Emitter::name},
       alternative<DiscMouth>(Info{.key = "disc", .help = "round mouth"}, &Emitter::mouth),
       alternative<RectMouth>(Info{.key = "rect", .help = "rectangular mouth"}, &Emitter::mouth),
+      alternative<MeshMouth>(Info{.key = "mesh", .help = "mouth of the outline of a flat mesh; its triangles face where the fluid goes"},
+                             &Emitter::mouth),
       Field{Info{.key = "flow", .unit = "m^3/s", .range = above(0), .help = "volume per time"}, &Emitter::flow},
       Field{Info{.key = "speed", .unit = "m/s", .range = above(0), .help = "speed in the mouth: flow over its area"}, &Emitter::speed},
       Field{Info{.key = "fluid", .help = "name of one of fluids; without it, the first"}, &Emitter::fluid},
@@ -52,11 +70,11 @@ struct Table<Emitter> {
                  .help = "time of its end, later than from; without it, it has none",
                  .unset = ""},
             &Emitter::until},
-      Field{
-          Info{.key = "motion",
-               .help = "keyframes of the mouth in order of time; linear between them, constant before the first and after the last. Fluid "
-                       "leaves with the mouth's velocity in addition to its own"},
-          &Emitter::motion}};
+      Field{Info{.key = "motion",
+                 .help = "keyframes of the mouth, of a mesh about its origin, in order of time; linear between them, constant before the "
+                         "first and after the last. Fluid "
+                         "leaves with the mouth's velocity in addition to its own"},
+            &Emitter::motion}};
 };
 
 template <>

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "core/mesh_plane.hpp"
 #include "core/vector_math.hpp"
 #include "core/words.hpp"
 #include "model/rules.hpp"
@@ -52,6 +53,26 @@ CheckResult checkRules(const RectMouth& mouth) {
   constexpr double kParallel = 1e-6;  // sine of the angle; less is lost in 32-bit floats
   if (length(cross(mouth.normal, mouth.up)) > kParallel * length(mouth.normal) * length(mouth.up)) return {};
   return Fault{"found " + roundedPlace(mouth.up) + ", which is parallel to the normal; expected another direction", {"up", "normal"}};
+}
+
+CheckResult checkRules(const MeshMouth& mouth) {
+  if (CheckResult fault = unitQuaternion(mouth.rotation, "rotation")) return fault;
+  if (!mouth.mesh) return Fault{"found no mesh; expected one of Mesh::create(), or a file that loadScene() reads", {"mesh"}};
+  const auto bad = [&](const std::string& text) {
+    return mouth.file.empty() ? Fault{text, {"mesh"}} : Fault{mouth.file.string() + ": " + text, {"file"}};
+  };
+  if (!mouth.mesh->twoSided()) return bad("found a mesh with an inside; expected one that was created two-sided");
+  constexpr double kFlat = 1e-3, kRounding = 1e-6;  // of its size, and of its area
+  const MeshPlane plane = planeOf(mouth.mesh->data());
+  if (!(plane.total > 0)) return bad("the triangles have no area; expected a mouth with one");
+  if (!(length(plane.normal) > 0)) return bad("the triangles face in opposite directions; expected all to face where the fluid goes");
+  if (plane.offPlane > kFlat * plane.size)
+    return bad("the mesh is not flat: its vertex at " + roundedPlace(plane.farthest) + " is " + roundedNumber(plane.offPlane) +
+               " m off the plane of the triangles; expected at most " + roundedNumber(kFlat * plane.size) + " m, a thousandth of its size");
+  if (plane.against > kRounding * plane.area)
+    return bad("triangles of " + roundedNumber(plane.against) + " m^2 face against the others, the first at " +
+               roundedPlace(plane.firstAgainst) + "; expected all to face where the fluid goes");
+  return {};
 }
 
 CheckResult checkRules(const Emitter& emitter) { return endsAfterStart(emitter); }

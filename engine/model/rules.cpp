@@ -35,16 +35,6 @@ CheckResult increasingTimes(const std::vector<Timed>& entries) {
   return {};
 }
 
-CheckResult unitQuaternion(const Quaternion& parts, std::string_view key) {
-  const double length = std::hypot(std::hypot(parts.x, parts.y, parts.z), parts.w);
-  if (!(length > 0))
-    return Fault{"the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation", {std::string(key)}};
-  constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions
-  if (std::abs(length - 1) > kTolerance)
-    return Fault{"the quaternion's length is " + roundedNumber(length) + "; expected 1", {std::string(key)}};
-  return {};
-}
-
 CheckResult checkBody(const Solid& solid) {
   if (!solid.body) return {};
   if (!solid.motion.empty()) return Fault{"found a body with keyframes; expected \"body\" or \"motion\", not both", {"body", "motion"}};
@@ -55,6 +45,16 @@ CheckResult checkBody(const Solid& solid) {
 }
 
 }  // namespace
+
+CheckResult unitQuaternion(const Quaternion& parts, std::string_view key) {
+  const double length = std::hypot(std::hypot(parts.x, parts.y, parts.z), parts.w);
+  if (!(length > 0))
+    return Fault{"the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation", {std::string(key)}};
+  constexpr double kTolerance = 1e-3;  // rounding in products of float quaternions
+  if (std::abs(length - 1) > kTolerance)
+    return Fault{"the quaternion's length is " + roundedNumber(length) + "; expected 1", {std::string(key)}};
+  return {};
+}
 
 std::string unitText(const Info& info) { return info.unit.empty() ? std::string() : " (" + std::string(info.unit) + ")"; }
 

@@ -32,12 +32,16 @@ CheckResult checkLength(const Info& info, size_t entries);
 /// Checks that exactly one of `keys` is given; accepts anything if `keys` is empty.
 CheckResult checkOneOf(std::span<const std::string_view> keys, std::span<const std::string_view> given);
 
+/// Checks that a quaternion has unit length, but for rounding.
+CheckResult unitQuaternion(const Quaternion& parts, std::string_view key);
+
 // Rules between the keys of an object, or the entries of a list, whose values are valid.
 CheckResult checkRules(const BoxShape& box);
 CheckResult checkRules(const Domain& domain);
 CheckResult checkSides(const Domain& domain);  ///< of its inflow and outflow
 CheckResult checkRules(const FluidSettings& fluid);
 CheckResult checkRules(const MeshShape& shape);
+CheckResult checkRules(const MeshMouth& mouth);
 CheckResult checkRules(const Fill& fill);
 CheckResult checkRules(const Solid& solid);
 CheckResult checkRules(const Body& body);

@@ -80,6 +80,11 @@ class KeyCollector {
   void add(const model::Info&, std::string key, const ParticleFile&) { keys_.emplace_back(std::move(key), "a file"); }
   /// The name of the file may change, too.
   void add(const model::Info&, std::string key, const MeshShape& shape) { keys_.emplace_back(std::move(key), hashOf(*shape.mesh)); }
+  void add(const model::Info&, std::string key, const MeshMouth& mouth) {
+    addList(memberPath(key, "translation"), mouth.translation);
+    addList(memberPath(key, "rotation"), mouth.rotation);
+    keys_.emplace_back(std::move(key), hashOf(*mouth.mesh));
+  }
   template <model::Described Struct>
   void add(const model::Info&, std::string key, const Struct& value) {
     collect(key, value);

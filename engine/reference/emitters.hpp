@@ -11,16 +11,17 @@ namespace rill::reference {
 
 /// A mouth and how fluid leaves it. Layers of `points` follow each other at `thickness`, so that the flow is at rest density.
 struct EmitterSettings {
-  glm::dvec3 center = {0, 0, 0};                  ///< of the mouth, m
-  std::vector<glm::dvec3> points;                 ///< of a layer in the mouth, relative to its center, m
+  glm::dvec3 center = {0, 0, 0};                  ///< what its motion turns it about, m
+  std::vector<glm::dvec3> points;                 ///< of a layer in the mouth, relative to that, m
   glm::dvec3 velocity = {0, 0, 0};                ///< at which particles leave, relative to the mouth, m/s
   double rate = 0;                                ///< layers a second, > 0
   double from = 0, until = 0;                     ///< s
-  std::vector<Keyframe> motion = {};              ///< of the mouth about its center
+  std::vector<Keyframe> motion = {};              ///< of the mouth
+  glm::dvec3 arm = {0, 0, 0};                     ///< m, from `center` to the middle of the mouth
   glm::dvec3 across = {1, 0, 0}, up = {0, 1, 0};  ///< unit vectors of the mouth's plane
+  uint32_t shape = 0;                             ///< as EmitterRecord has it
   double halfAcross = 0, halfUp = 0;              ///< m, half its size; of a disc its radius
-  bool isDisc = false;
-  double motionSpeed = 0;  ///< m/s, at most, of the mouth's own motion
+  double motionSpeed = 0;                         ///< m/s, at most, of the mouth's own motion
 };
 
 /// How the frame of a mouth moves.

@@ -1,7 +1,9 @@
 #include "reference/scene_settings.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "fill/mouth.hpp"
 #include "fluid/fluids.hpp"
@@ -10,19 +12,24 @@
 namespace rill::reference {
 namespace {
 
-EmitterSettings settingsOf(const Emitter& emitter, const EmitterRecord& r) {
-  return {.center = {r.centerX, r.centerY, r.centerZ},
-          .points = {},
+EmitterSettings settingsOf(const Emitter& emitter, const EmitterRecord& r, std::span<const std::array<float, 2>> points) {
+  const glm::dvec3 center(r.centerX, r.centerY, r.centerZ), arm(r.armX, r.armY, r.armZ);
+  const glm::dvec3 across(r.acrossX, r.acrossY, r.acrossZ), up(r.upX, r.upY, r.upZ);
+  std::vector<glm::dvec3> layer;
+  for (const auto& [x, y] : points.subspan(r.firstPoint, r.points)) layer.push_back(arm + double{x} * across + double{y} * up);
+  return {.center = center - arm,
+          .points = std::move(layer),
           .velocity = double{r.speed} * glm::dvec3(r.normalX, r.normalY, r.normalZ),
           .rate = r.rate,
           .from = r.from,
           .until = r.until,
           .motion = emitter.motion,
-          .across = {r.acrossX, r.acrossY, r.acrossZ},
-          .up = {r.upX, r.upY, r.upZ},
+          .arm = arm,
+          .across = across,
+          .up = up,
+          .shape = r.shape,
           .halfAcross = r.halfAcross,
           .halfUp = r.halfUp,
-          .isDisc = r.isDisc != 0,
           .motionSpeed = r.motionSpeed};
 }
 
@@ -59,7 +66,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   }
   s.solids = scene.solids;
   const std::vector<Emitter> emitters = emittersOf(scene);
-  for (size_t k = 0; k < emitters.size(); ++k) s.emitters.push_back(settingsOf(emitters[k], setup.emitters[k]));
+  for (size_t k = 0; k < emitters.size(); ++k) s.emitters.push_back(settingsOf(emitters[k], setup.emitters[k], setup.mouthPoints));
   s.iterations = static_cast<int>(scene.solver.iterations);
   s.relaxation = setup.params.relaxationInMotion;
   s.relaxationAtRest = setup.params.relaxationAtRest;

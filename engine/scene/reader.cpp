@@ -97,13 +97,6 @@ void Reader::normalize(Quaternion& quaternion) {
   for (size_t i = 0; i < 4 && length > 0; ++i) quaternion[i] /= length;
 }
 
-bool Reader::loadMesh(const std::string& path, MeshShape& shape) {
-  std::shared_ptr<const Mesh>& known = meshes_[{shape.file.string(), shape.scale, shape.up, shape.two_sided}];
-  if (!known && !readMeshOf(path, shape, known)) return false;
-  shape.mesh = known;
-  return true;
-}
-
 bool Reader::readMeshOf(const std::string& path, const MeshShape& shape, std::shared_ptr<const Mesh>& out) {
   auto data = readMesh(shape.file);
   if (!data) return fail(memberPath(path, "file"), data.error().message);

@@ -39,9 +39,11 @@ class Reader {
     model::forEachField<Owner>([&](const auto& field) {
       if (ok) ok = member(json, path, field, owner);
     });
-    if constexpr (std::is_same_v<Owner, Solid> || std::is_same_v<Owner, Fill>) normalize(owner.rotation);
+    if constexpr (std::is_same_v<Owner, Solid> || std::is_same_v<Owner, Fill> || std::is_same_v<Owner, MeshMouth>)
+      normalize(owner.rotation);
     if constexpr (std::is_same_v<Owner, Keyframe>) normalize(owner.rotate);
-    if constexpr (std::is_same_v<Owner, MeshShape>) ok = ok && loadMesh(path, owner);
+    if constexpr (std::is_same_v<Owner, MeshShape>) ok = ok && loadMesh(path, owner, owner.two_sided);
+    if constexpr (std::is_same_v<Owner, MeshMouth>) ok = ok && loadMesh(path, owner, true);
     for (const auto& keys : model::choicesOf<Owner>()) ok = ok && exactlyOne(json, path, keys);
     return ok && accept(path, model::checkRules(owner));
   }
@@ -51,8 +53,14 @@ class Reader {
   /// On a fault, reports the first candidate key that an override has set, else the first candidate.
   bool accept(const std::string& path, const model::CheckResult& result);
   static void normalize(Quaternion& quaternion);
-  /// Reads the file of a mesh, once for all solids and fills that have the same.
-  bool loadMesh(const std::string& path, MeshShape& shape);
+  /// Reads the file of a mesh, once for all solids, fills and mouths that have the same.
+  template <class Owner>
+  bool loadMesh(const std::string& path, Owner& shape, bool twoSided) {
+    std::shared_ptr<const Mesh>& known = meshes_[{shape.file.string(), shape.scale, shape.up, twoSided}];
+    if (!known && !readMeshOf(path, {.file = shape.file, .scale = shape.scale, .up = shape.up, .two_sided = twoSided}, known)) return false;
+    shape.mesh = known;
+    return true;
+  }
   bool readMeshOf(const std::string& path, const MeshShape& shape, std::shared_ptr<const Mesh>& out);
   bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys);
   /// Whether the scene's version has the key.

@@ -7,6 +7,7 @@
 
 #include "core/overloaded.hpp"
 #include "core/vector_math.hpp"
+#include "fill/mesh_mouth.hpp"
 #include "fill/mouth.hpp"
 #include "shape/records.hpp"
 
@@ -70,7 +71,7 @@ class Outline {
 /// A unit vector across a unit vector.
 Double3 unitAcross(const Double3& v) { return normalized(cross(std::abs(v.y) < 0.9 ? Double3{0, 1, 0} : Double3{1, 0, 0}, v)); }
 
-/// With a line from the center in the direction of the flow.
+/// With a line from the center in the direction of the flow. `outline`: in the frame of the mouth's pivot.
 void addMouth(const Mouth& mouth, Outline outline) {
   std::visit(Overloaded{[&](const DiscMouth& disc) {
                           const Double3 normal = normalized(disc.normal), u = unitAcross(normal);
@@ -81,6 +82,13 @@ void addMouth(const Mouth& mouth, Outline outline) {
                           const Double3 normal = normalized(rect.normal), u = normalized(cross(normal, normalized(rect.up)));
                           outline.rectangle(along({}, rect.size.first / 2, u), along({}, rect.size.second / 2, cross(u, normal)));
                           outline.line({}, along({}, std::min(rect.size.first, rect.size.second) / 2, normal));
+                        },
+                        [&](const MeshMouth& mesh) {
+                          const FlatMouth flat = flatMouth(mesh);
+                          const Double3 center = minus(flat.center, mesh.translation);
+                          const auto at = [&](const MouthPoint& p) { return along(along(center, p[0], flat.across), p[1], flat.up); };
+                          for (const auto& [from, to] : flat.outline) outline.line(at(from), at(to));
+                          outline.line(center, along(center, std::sqrt(flat.area / std::numbers::pi), flat.normal));
                         }},
              mouth);
 }
@@ -93,7 +101,7 @@ std::vector<LineRecord> flowOutlines(const Scene& scene, const Double3& origin, 
     const auto first = static_cast<uint32_t>(keyframes.size());
     const std::vector<KeyframeRecord> motion = keyframeRecords(emitter.motion);
     keyframes.insert(keyframes.end(), motion.begin(), motion.end());
-    addMouth(emitter.mouth, {minus(centerOf(emitter.mouth), origin), first, static_cast<uint32_t>(motion.size()), lines});
+    addMouth(emitter.mouth, {minus(pivotOf(emitter.mouth), origin), first, static_cast<uint32_t>(motion.size()), lines});
   }
   for (const Drain& drain : scene.drains) {
     if (const auto* sphere = std::get_if<SphereShape>(&drain.shape)) {

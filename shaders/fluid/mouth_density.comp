@@ -18,14 +18,36 @@ READ_UINT(6, listHead)
 layout(std430, binding = 7) buffer DisplacedBlock { vec4 nearDisplaced[]; };
 layout(std430, binding = 8) readonly buffer EmitterBlock { EmitterRecord emitters[]; };
 layout(std430, binding = 9) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
+layout(std430, binding = 10) readonly buffer MouthPointBlock { vec2 mouthPoints[]; };
 #include "fluid/half_space.glsl"
 #include "fluid/mouth_frame.glsl"
+#include "fluid/mouth_points.glsl"
 #include "fluid/open_mouths.glsl"
 
 // Of a slab between two planes at x: value and slope.
 vec2 slab(float x, float low, float high) {
   vec2 near = face(x - high), far = face(x - low);
   return near - far;
+}
+
+// Of a rectangle in the mouth's plane: slopes along both axes, and the value.
+vec3 crossSection(vec2 place, vec2 middle, vec2 half_) {
+  vec2 across = slab(place.x, middle.x - half_.x, middle.x + half_.x), up = slab(place.y, middle.y - half_.y, middle.y + half_.y);
+  return vec3(across.y * up.x, across.x * up.y, across.x * up.x);
+}
+
+// Of a mouth of any outline: the sum over its points, each the middle of a square of the lattice.
+vec3 cellsAt(uint e, vec2 place, float half_) {
+  float reach = params.support + half_;
+  uint end = emitters[e].firstPoint + emitters[e].points, k = firstMouthPoint(e, place.y - reach, -kNever);
+  vec3 sum = vec3(0.0);
+  while (k < end && mouthPoints[k].y < place.y + reach) {
+    float row = mouthPoints[k].y;
+    for (k = firstMouthPoint(e, row, place.x - reach); k < end && mouthPoints[k].y == row && mouthPoints[k].x < place.x + reach; ++k)
+      sum += crossSection(place, mouthPoints[k], vec2(half_));
+    k = firstMouthPoint(e, row, kNever);
+  }
+  return sum;
 }
 
 // What the slab displaces that lies in front of the mouth, behind the last layer. Gradient, and the value in w.
@@ -36,16 +58,10 @@ vec4 mouthSample(uint e, MouthFrame frame, OpenMouth mouth, vec3 x) {
   if (front <= back) return vec4(0.0);
   vec3 from = x - centerOf(frame.pose);
   vec2 along = slab(dot(from, frame.normal), back, front), side = vec2(dot(from, frame.across), dot(from, frame.up));
-  vec2 half_ = vec2(emitters[e].halfAcross, emitters[e].halfUp);
-  if (emitters[e].isDisc != 0u) {
-    float radius = length(side), around = 1.0 - 2.0 * face(half_.x).x;
-    vec2 radial = around * slab(radius, -half_.x, half_.x);
-    vec3 outward = (side.x * frame.across + side.y * frame.up) / max(radius, 1.0e-20);
-    return mouth.strength * vec4(along.y * radial.x * frame.normal + along.x * radial.y * outward, along.x * radial.x);
-  }
-  vec2 across = slab(side.x, -half_.x, half_.x), up = slab(side.y, -half_.y, half_.y);
-  vec3 gradient = along.y * across.x * up.x * frame.normal + along.x * (across.y * up.x * frame.across + across.x * up.y * frame.up);
-  return mouth.strength * vec4(gradient, along.x * across.x * up.x);
+  vec3 beside = emitters[e].shape == kRectMouth ? crossSection(side, vec2(0.0), vec2(emitters[e].halfAcross, emitters[e].halfUp)) :
+                                                  cellsAt(e, side, 0.5 * d * sqrt(d / thickness));
+  vec3 gradient = along.y * beside.z * frame.normal + along.x * (beside.x * frame.across + beside.y * frame.up);
+  return mouth.strength * vec4(gradient, along.x * beside.z);
 }
 
 // Of the mouth and its images behind walls.

@@ -4,7 +4,7 @@
 #include "shared/keyframes.glsl"
 
 struct MouthFrame {
-  PoseRecord pose;  // without motion its axes are those of the scene
+  PoseRecord pose;  // of the mouth's center; without motion its axes are those of the scene
   vec3 normal, across, up;
 };
 
@@ -15,7 +15,13 @@ MouthFrame mouthFrame(uint e, float time) {
   vec3 up = vec3(emitters[e].upX, emitters[e].upY, emitters[e].upZ);
   PoseRecord rest = poseOf(center, vec4(0.0, 0.0, 0.0, 1.0), vec3(0.0), vec3(0.0));
   if (emitters[e].keyCount == 0u) return MouthFrame(rest, normal, across, up);
-  PoseRecord pose = keyframedPose(rest, emitters[e].firstKey, emitters[e].keyCount, time);
+  vec3 arm = vec3(emitters[e].armX, emitters[e].armY, emitters[e].armZ);
+  PoseRecord pivot = poseOf(center - arm, vec4(0.0, 0.0, 0.0, 1.0), vec3(0.0), vec3(0.0));
+  PoseRecord pose = keyframedPose(pivot, emitters[e].firstKey, emitters[e].keyCount, time);
+  if (emitters[e].shape == kMeshMouth) {
+    vec3 moved = centerOf(pose) + toScene(pose, arm);
+    pose = poseOf(moved, rotationOf(pose), velocityAt(pose, moved), angularVelocity(pose));
+  }
   return MouthFrame(pose, toScene(pose, normal), toScene(pose, across), toScene(pose, up));
 }
 #endif

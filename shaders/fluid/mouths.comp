@@ -15,7 +15,9 @@ layout(std430, binding = 6) readonly buffer EmitterBlock { EmitterRecord emitter
 layout(std430, binding = 7) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 READ_UINT(9, nearMouths)
+layout(std430, binding = 10) readonly buffer MouthPointBlock { vec2 mouthPoints[]; };
 #include "fluid/mouth_frame.glsl"
+#include "fluid/mouth_points.glsl"
 #include "fluid/open_mouths.glsl"
 
 // The shortest displacement out of the piston; 0 if x is not in it.
@@ -24,14 +26,16 @@ vec3 displacementOut(uint e, MouthFrame frame, float phase, vec3 x) {
   float thickness = min(emitters[e].speed / emitters[e].rate, params.spacing);  // of a mouth of one particle it may be much more
   float along = dot(from, normal), forward = phase * thickness - along, backward = along + thickness;
   vec2 side = vec2(dot(from, across), dot(from, up)), limit = vec2(emitters[e].halfAcross, emitters[e].halfUp);
-  limit += emitters[e].isDisc != 0u ? params.spacing : 0.5 * params.spacing;  // centers of a layer reach a disc's rim
+  bool isDisc = emitters[e].shape == kDiscMouth, isRect = emitters[e].shape == kRectMouth;
+  limit += isRect ? 0.5 * params.spacing : params.spacing;  // centers of a layer reach the rim of a disc and of a mesh
   vec2 beside = limit - abs(side);
-  float radius = length(side), aside = emitters[e].isDisc != 0u ? limit.x - radius : min(beside.x, beside.y);
+  float radius = length(side), aside = isDisc ? limit.x - radius : min(beside.x, beside.y);
   float shortest = min(min(forward, backward), aside);
   if (shortest <= 0.0) return vec3(0.0);
+  if (emitters[e].shape == kMeshMouth) return mat3(across, up, normal) * displacementFromPoints(e, side, forward, backward);
   if (shortest == forward) return forward * normal;
   if (shortest == backward) return -backward * normal;
-  if (emitters[e].isDisc != 0u) return aside / max(radius, 1.0e-20) * (side.x * across + side.y * up);
+  if (isDisc) return aside / max(radius, 1.0e-20) * (side.x * across + side.y * up);
   return beside.x < beside.y ? (side.x < 0.0 ? -beside.x : beside.x) * across : (side.y < 0.0 ? -beside.y : beside.y) * up;
 }
 

@@ -12,6 +12,11 @@ RILL_CONST uint kHalfLayer = 0x80000000u;  // phase at the start: the first laye
 
 RILL_CONST uint kFluidLedgers = 8u;        // one for each of several fluids
 
+// Shapes of mouths.
+RILL_CONST uint kRectMouth = 0u;
+RILL_CONST uint kDiscMouth = 1u;
+RILL_CONST uint kMeshMouth = 2u;  // the place of its points, with what is nearer to them than a spacing
+
 RILL_CONST uint kNoRoom = 1u;   // the capacity, or the ids, did not do for a whole layer
 RILL_CONST uint kCovered = 2u;  // a part of the mouth is in a solid or behind a wall
 
@@ -25,10 +30,11 @@ struct EmitterRecord {
   float upX, upY, upZ;
   float halfAcross, halfUp;         // m, half the mouth's size; of a round one its radius
   float from, until;                // s
-  uint firstPoint, points;          // of its layer, among the mouths' points
-  uint isDisc;                      // 1: a disc
+  uint firstPoint, points;          // of its layer, among the mouths' points; of a mesh by rows, those along `across`
+  uint shape;                       // kRectMouth and so on
   uint firstKey, keyCount;          // of its motion, entries of the keyframe buffer
   float motionSpeed;                // m/s, at most, of the mouth's own motion
+  float armX, armY, armZ;           // m, from what it turns about to its center, before its motion
   uint fluid;                       // index of what leaves it
   // State.
   uint phase;                       // of the layer that leaves, in units of 2^-32

@@ -233,5 +233,26 @@ TEST(Simulation, ParticlesKeepTheirFluid) {
   EXPECT_EQ(stats->fluids[0].ledger.emitted, 0u);
 }
 
+TEST(Simulation, PoursThroughAMeshOfAFile) {
+  auto scene = parseScene(R"({
+    "rill": "0.2", "domain": {"min": [-0.3, 0, -0.3], "max": [0.3, 0.6, 0.3]}, "fluid": {"spacing": 0.02},
+    "emitters": [{"name": "nozzle", "mesh": {"file": "meshes/star.obj", "scale": 1.5, "translation": [0, 0.4, 0]}, "flow": 0.01,
+                  "motion": [{"at": 0}, {"at": 0.5, "rotate": [0, 0.6, 0, 0.8]}]}],
+    "probes": [{"name": "rate", "flow": "nozzle"}]})",
+                          "star", RILL_SOURCE_DIR "/assets/scenes");
+  ASSERT_TRUE(scene) << scene.error().message;
+  auto simulation = open({}, *scene);
+  ASSERT_TRUE(simulation);
+  ASSERT_TRUE(simulation->advance(0.4));
+  const auto stats = simulation->stats();
+  ASSERT_TRUE(stats);
+  const double layer = 1.5 * 1.5 * 0.0116 / (0.02 * 0.02);
+  EXPECT_NEAR(static_cast<double>(stats->ledger.emitted), 0.01 * 0.4 / 8e-6, layer);
+  EXPECT_EQ(stats->ledger.emitted, stats->particles);
+  const auto particles = simulation->particles();
+  ASSERT_TRUE(particles);
+  for (const Float3& x : particles->positions) EXPECT_TRUE(std::abs(x.x) < 0.31F && std::abs(x.z) < 0.31F && x.y > -0.01F);
+}
+
 }  // namespace simulation_test
 }  // namespace rill::offline

@@ -47,11 +47,13 @@ inline Quaternion turn(const Double3& axis, double angle) {
 inline reference::EmitterSettings settingsOf(const Emitter& emitter, double spacing) {
   const MouthLattice lattice = mouthLattice(emitter.mouth, spacing);
   const double speed = emitter.speed > 0 ? emitter.speed : emitter.flow / lattice.area;
-  reference::EmitterSettings s{.center = vec(lattice.center), .velocity = speed * vec(lattice.normal), .rate = speed / lattice.thickness};
+  reference::EmitterSettings s{
+      .center = vec(lattice.center) - vec(lattice.arm), .velocity = speed * vec(lattice.normal), .rate = speed / lattice.thickness};
   s.from = emitter.from;
   s.until = emitter.until.value_or(1e9);
   s.motion = emitter.motion;
-  for (const auto& [across, up] : lattice.points) s.points.push_back(double{across} * vec(lattice.across) + double{up} * vec(lattice.up));
+  for (const auto& [across, up] : lattice.points)
+    s.points.push_back(vec(lattice.arm) + double{across} * vec(lattice.across) + double{up} * vec(lattice.up));
   return s;
 }
 

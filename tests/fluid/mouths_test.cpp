@@ -1,5 +1,6 @@
 // What open mouths do to fluid beside them, against the reference, until their first layers are born.
 #include "fluid/flows_fixture.hpp"
+#include "support/flat_meshes.hpp"
 
 namespace rill::test {
 namespace mouths_test {
@@ -49,6 +50,15 @@ TEST_F(MouthsTest, RectangleThatTurnsMatchesReference) {
   t.scene.emitters[0].motion = {{.at = 0}, {.at = 0.02, .translate = {0.01, 0, 0.02}, .rotate = turn({0, 0, 1}, 0.3)}};
   expectActs(t);
   expectEqual(t, 8, 2e-4, 2e-3, 1e-3);
+}
+
+// Of a mesh, what displaces and pushes are the squares and points of its lattice: the notch stays open.
+TEST_F(MouthsTest, MeshThatTurnsMatchesReference) {
+  Trial t = fluidAround({.mouth = mouthOf(moved(cornerMesh(0.15), -0.1, -0.05))});
+  t.scene.emitters[0].speed = slowSpeed(t);
+  t.scene.emitters[0].motion = {{.at = 0}, {.at = 0.02, .translate = {0.01, 0, 0.02}, .rotate = turn({0, 1, 0}, 0.3)}};
+  expectActs(t);
+  expectEqual(t, 8, 2e-4, 2e-3, 2e-3);
 }
 
 // Images of the fluid in the mouth stand behind the walls that it lies beside, and beside a solid the two are one.

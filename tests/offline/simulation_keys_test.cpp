@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "support/flat_meshes.hpp"
+
 namespace rill::test {
 namespace {
 
@@ -49,6 +51,26 @@ TEST(SimulationKeys, FindADifferentFlowButNoOtherName) {
   other = withFlows();
   other.drains.clear();
   EXPECT_EQ(firstDifference(keys, simulationKeys(other, {})), "drains[0].sphere.center: not set, expected [1,2,3]");
+}
+
+TEST(SimulationKeys, HaveTheMeshOfAMouthAndItsPlaceButNotItsFile) {
+  Scene scene = withFlows();
+  MeshMouth mouth = mouthOf(cornerMesh(0.1));
+  mouth.file = "here.obj";
+  mouth.translation = {1, 2, 3};
+  scene.emitters[0].mouth = mouth;
+  const SimulationKeys keys = simulationKeys(scene, {});
+  EXPECT_EQ(valueOf(keys, "emitters[0].mesh.translation"), "[1,2,3]");
+  mouth.file = "there.obj";
+  scene.emitters[0].mouth = mouth;
+  EXPECT_EQ(firstDifference(keys, simulationKeys(scene, {})), "");
+  mouth.rotation = {1, 0, 0, 0};
+  scene.emitters[0].mouth = mouth;
+  EXPECT_EQ(firstDifference(keys, simulationKeys(scene, {})), "emitters[0].mesh.rotation: found [1,0,0,0], expected [0,0,0,1]");
+  MeshMouth other = mouthOf(cornerMesh(0.2));
+  other.translation = mouth.translation;
+  scene.emitters[0].mouth = other;
+  EXPECT_EQ(firstDifference(keys, simulationKeys(scene, {})).substr(0, 24), "emitters[0].mesh: found ");
 }
 
 TEST(SimulationKeys, FindADifferentInterfaceButNoOtherNames) {

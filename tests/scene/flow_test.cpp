@@ -87,7 +87,7 @@ TEST(FlowScene, NeedsVersion02) {
 TEST(FlowScene, RejectsEmittersNamingTheKey) {
   EXPECT_EQ(parseError(emitter(R"("disc": {}, "flow": 1)")), "accepted");
   EXPECT_EQ(parseError(emitter(R"("rect": {}, "speed": 1)")), "accepted");
-  const std::string mouths = "emitters[0]: expected exactly one of \"disc\", \"rect\"; found ",
+  const std::string mouths = "emitters[0]: expected exactly one of \"disc\", \"rect\", \"mesh\"; found ",
                     flows = "emitters[0]: expected exactly one of \"flow\", \"speed\"; found ";
   expectRefusals({
       {emitter(R"("flow": 1)"), mouths + "none"},

@@ -7,7 +7,7 @@
 #include "fluid/settings.hpp"
 #include "model/fields.hpp"
 #include "support.hpp"
-#include "support/meshes.hpp"
+#include "support/flat_meshes.hpp"
 #include "tank.hpp"
 
 namespace rill::test {
@@ -107,7 +107,9 @@ void addStickyFluidAndPressures(Scene& scene) {
 /// Emitters, drains, an inflow and an outflow.
 void addFlows(Scene& scene) {
   scene.emitters = {{.name = "tap", .mouth = DiscMouth{{0.3, 0.8, 0.3}, 0.1, {0, -1, 0}}, .flow = 0.01, .from = 0.1, .until = 2},
-                    {.mouth = RectMouth{{0.6, 0.8, 0.6}, {0.2, 0.1}, {1, 0, 0}, {0, 1, 0}}, .speed = 2}};
+                    {.mouth = RectMouth{{0.6, 0.8, 0.6}, {0.2, 0.1}, {1, 0, 0}, {0, 1, 0}}, .speed = 2},
+                    {.mouth = mouthOf(cornerMesh(0.1)), .speed = 1}};
+  std::get<MeshMouth>(scene.emitters[2].mouth).translation = {0.5, 0.8, 0.5};
   scene.drains = {{.name = "plug", .shape = BoxShape{{0, 0, 0}, {0.1, 0.1, 0.1}}},
                   {.shape = SphereShape{{0.5, 0.1, 0.5}, 0.1}, .until = 3}};
   scene.probes.push_back({.name = "rate", .flow = "tap"});

@@ -176,7 +176,8 @@ TEST(KeyTables, HaveARowForEveryKeyWithItsDefault) {
         "| `kernel` | | `wendland`, `poly6_spiky` | `\"wendland\"` |", "| `spacing` | m | number, above 0 | |",
         "| `solids` | | list of objects, at most 4,096 | `[]` |", "| `seed` | | whole number, from 0 to 18446744073709551615 | `1` |",
         R"(sum of \|grad C\|^2;)", "### `fill[].box`, `solids[].box`, `drains[].box`\n", "| `size` | m | 2 numbers, above 0 | `[1,1]` |",
-        "| `until` | s | number, above 0 | | time", "Exactly one of `disc`, `rect` is given. Exactly one of `flow`, `speed` is given.",
+        "| `until` | s | number, above 0 | | time",
+        "Exactly one of `disc`, `rect`, `mesh` is given. Exactly one of `flow`, `speed` is given.",
         "Exactly one of `spacing`, `particles` is given."}) {
     EXPECT_NE(tables.find(row), std::string::npos) << row << "\n" << tables;
   }

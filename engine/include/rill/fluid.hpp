@@ -91,9 +91,10 @@ struct BodyPull {
 
 /// What an emitter does from the begin of an advance on, until the next target for it: a tap in a host's hand.
 struct EmitterTarget {
-  uint32_t emitter = 0;                ///< index into Scene::emitters, behind them the inflow; its times `from` and `until` still apply
-  double flow = 0;                     ///< m^3/s, >= 0; 0: closed
-  std::optional<Double3> center = {};  ///< of the mouth, before its motion if keyframes move it, m; none: it stays
+  uint32_t emitter = 0;  ///< index into Scene::emitters, behind them the inflow; its times `from` and `until` still apply
+  double flow = 0;       ///< m^3/s, >= 0; 0: closed
+  /// Of the mouth, of a mesh its centroid, m; before its motion if keyframes move it. None: it stays.
+  std::optional<Double3> center = {};
   std::optional<Double3> normal = {};  ///< direction of the flow, likewise, of any length above 0; none: it stays. Turns the shorter way
 };
 

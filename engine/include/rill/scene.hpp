@@ -150,19 +150,31 @@ struct RectMouth {
   Double3 up = {0, 0, 1};                   ///< not parallel to the normal; its part across the normal counts
 };
 
+/// A mouth of any outline: a flat mesh, with holes and in several pieces if it has them. Its triangles are counterclockwise seen from where
+/// the flow goes, along their mean normal. They do not overlap.
+struct MeshMouth {
+  std::filesystem::path file = {};  ///< as MeshShape::file
+  double scale = 1;                 ///< m per unit of the file, > 0
+  UpAxis up = UpAxis::Y;
+  Double3 translation = {0, 0, 0};        ///< of the mesh's origin, m, after the rotation
+  Quaternion rotation = {0, 0, 0, 1};     ///< of the mesh about its origin: unit quaternion x y z w
+  std::shared_ptr<const Mesh> mesh = {};  ///< two-sided, in m; read from `file` by loadScene(), or the host's
+};
+
 /// The shape of a mouth.
-using Mouth = std::variant<DiscMouth, RectMouth>;
+using Mouth = std::variant<DiscMouth, RectMouth, MeshMouth>;
 
 /// A source of fluid, which leaves a mouth at rest density. Exactly one of `flow` and `speed` is given.
 struct Emitter {
   std::string name = {};  ///< unique among emitters and drains, or empty
   Mouth mouth = {};
-  double flow = 0;                    ///< m^3/s, > 0; 0 if `speed` is given
-  double speed = 0;                   ///< m/s, > 0: flow over the area of the mouth; 0 if `flow` is given
-  std::string fluid = {};             ///< name of one of Scene::fluids; empty: the first
-  double from = 0;                    ///< s, >= 0
-  std::optional<double> until = {};   ///< s, later than `from`; empty: for ever
-  std::vector<Keyframe> motion = {};  ///< of the mouth, about its center; fluid leaves with the mouth's velocity in addition to its own
+  double flow = 0;                   ///< m^3/s, > 0; 0 if `speed` is given
+  double speed = 0;                  ///< m/s, > 0: flow over the area of the mouth; 0 if `flow` is given
+  std::string fluid = {};            ///< name of one of Scene::fluids; empty: the first
+  double from = 0;                   ///< s, >= 0
+  std::optional<double> until = {};  ///< s, later than `from`; empty: for ever
+  /// Of the mouth about its center, a mesh about its origin; fluid leaves with the mouth's velocity in addition to its own.
+  std::vector<Keyframe> motion = {};
 };
 
 /// A volume that removes the particles in it.
