@@ -80,7 +80,7 @@ Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* con
   app.name("rill-bench");
   app.get_formatter()->column_width(30);
   app.add_option("SUITE", raw.suite, "the suite to run, see below")->type_name("")->required();
-  app.add_flag("--quick", raw.quick, "run fewer and smaller cases with one sample per time: under a minute; stability takes about two");
+  app.add_flag("--quick", raw.quick, "run fewer and smaller cases with one sample per time: about a minute a suite");
   app.add_option("--json", raw.json, "write all results and samples as JSON; - writes to standard output")->type_name("FILE");
   app.add_option("--plot", raw.plot, "draw the diagrams of the suite as SVG (requires gnuplot)")->type_name("FILE.svg");
   app.add_option("--report", raw.report, "write the tables as Markdown; - writes to standard output")->type_name("FILE.md");

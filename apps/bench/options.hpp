@@ -13,7 +13,7 @@ namespace rill::bench {
 /// Parsed command line.
 struct Options {
   std::string suite;
-  bool quick = false;  ///< fewer and smaller cases, under a minute
+  bool quick = false;  ///< fewer and smaller cases, about a minute
   bool quiet = false;
   uint32_t repeat = 3;  ///< samples per time; the median is reported
   std::string only;     ///< runs only cases whose name contains this

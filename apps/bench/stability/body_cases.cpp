@@ -48,12 +48,15 @@ std::vector<StressCase> bodyCases() {
   cases.push_back(bodyCase("bodies-overlapping",
                            {crate({0.5, 0.3, 0.5}, 0.3, 500), crate({0.5, 0.3, 0.5}, 0.3, 500), crate({0.6, 0.4, 0.5}, 0.2, 2000)}, 5));
   cases.push_back(bodyCase("bodies-in-walls", {crate({0, 0.1, 0.5}, 0.3, 500), crate({1, 0.9, 1}, 0.3, 500)}, 5));
+  cases.back().fullOnly = true;
   cases.push_back(bodyCase("body-larger-than-the-domain", {crate({0.5, 1.45, 0.5}, 2.5, 500)}, 40));
-  cases.back().longRun = true;
-  for (const double ratio : {1e-3, 1e3})
+  cases.back().fullOnly = true;
+  for (const double ratio : {1e-3, 1e3}) {
     cases.push_back(bodyCase("body-of-" + number(ratio) + "-of-water", {crate({0.5, 0.4, 0.5}, 0.3, 1000 * ratio)}, 40));
+    cases.back().fullOnly = ratio > 1;
+  }
   cases.push_back(bodyCase("bodies-mass-ratio-1e6", {crate({0.5, 0.2, 0.5}, 0.3, 1), crate({0.5, 0.52, 0.5}, 0.3, 1e6)}, 40));
-  cases.back().longRun = true;
+  cases.back().fullOnly = true;
   {  // of almost no volume; what has none is refused when the mesh is made
     auto plate = Mesh::create(boxMesh({-0.2, -0.001, -0.2}, {0.2, 0.001, 0.2}));
     const Solid solid{.shape = MeshShape{.mesh = plate ? *plate : nullptr}, .translation = {0.5, 0.6, 0.5}, .body = Body{.density = 500}};
@@ -65,12 +68,14 @@ std::vector<StressCase> bodyCases() {
     Solid locked = crate({0.5, 0.3, 0.5}, 0.3, 500);
     locked.body->locked = 0b111111;
     cases.push_back(bodyCase("body-locked", {locked, crate({0.5, 0.6, 0.5}, 0.2, 500)}, 5));
+    cases.back().fullOnly = true;
   }
   cases.push_back(bodyCase("bodies-gravity-flips", {crate({0.3, 0.5, 0.5}, 0.25, 200), crate({0.7, 0.5, 0.5}, 0.25, 3000)}, 10));
+  cases.back().fullOnly = true;
   cases.back().scene.gravity_changes = {{0.2, {0, 9.81, 0}}, {0.35, {20, -9.81, 5}}};
   cases.push_back(bodyCase("bodies-4096", swarm(16, 1.0 / 16, 0.05), 20));
   cases.back().duration_s = 0.03;
-  cases.back().longRun = true;
+  cases.back().fullOnly = true;
   return cases;
 }
 

@@ -37,7 +37,7 @@ StressCase endlessFountain() {
   c.asserts = "as much leaves as comes; as many particles and substeps at the end as at the start";
   c.duration_s = 600;
   c.frame_s = 0.25;
-  c.longRun = true;
+  c.fullOnly = true;
   c.check = [](const StressOutcome& o) -> std::string {
     const auto& all = o.run.instants;
     const auto mean = [&](size_t first, size_t last, auto figure) {
@@ -101,13 +101,16 @@ std::vector<StressCase> flowCases() {
   const Double3 none = {0, 0, 0}, half = {1, 0.5, 1};
   std::vector<StressCase> cases;
   cases.push_back(flowCase("tap-100-m/s", none, {tap({0.5, 0.9, 0.5}, 0.1, {0, -1, 0}, 100)}));
-  cases.back().longRun = true;
+  cases.back().fullOnly = true;
   cases.push_back(
       flowCase("taps-against-each-other", none, {tap({0.3, 0.5, 0.5}, 0.1, {1, 0, 0}, 3), tap({0.7, 0.5, 0.5}, 0.1, {-1, 0, 0}, 3)}));
   cases.push_back(
       flowCase("taps-at-one-place", half, {tap({0.5, 0.25, 0.5}, 0.15, {1, 0, 0}, 1), tap({0.5, 0.25, 0.5}, 0.15, {0, 1, 0}, 1)}));
+  cases.back().fullOnly = true;
   cases.push_back(flowCase("tap-into-a-corner", half, {tap({0.1, 0.1, 0.1}, 0.1, {-1, -1, -1}, 2)}));
+  cases.back().fullOnly = true;
   cases.push_back(flowCase("tap-along-a-wall", half, {tap({0.5, 0.2, 0}, 0.2, {1, 0, 0}, 1)}));
+  cases.back().fullOnly = true;
   cases.push_back(flowCase("mouth-larger-than-the-domain", none, {tap({0.5, 0.5, 0.5}, 3, {0, -1, 0}, 1)}));
   cases.push_back(flowCase("mouth-of-a-hundredth-spacing", half, {tap({0.5, 0.8, 0.5}, 0.0005, {0, -1, 0}, 2)}));
   {
@@ -120,6 +123,7 @@ std::vector<StressCase> flowCases() {
     cases.push_back(flowCase("hose-that-swings", half, {hose}));
     hose.motion = {{.at = 0.2}, {.at = 0.4, .translate = {0, -0.8, 0}}, {.at = 0.6, .translate = {-1, -0.8, 0}}};
     cases.push_back(flowCase("tap-that-dives-and-leaves", half, {hose}));
+    cases.back().fullOnly = true;
   }
   cases.push_back(
       flowCase("tap-in-a-drain", none, {tap({0.5, 0.9, 0.5}, 0.1, {0, -1, 0}, 1)}, {{.shape = SphereShape{{0.5, 0.8, 0.5}, 0.3}}}));
@@ -136,7 +140,7 @@ std::vector<StressCase> flowCases() {
   }
   {
     StressCase c = flowCase("tank-that-is-overfilled", {1, 1, 1}, {tap({0.5, 0.5, 0.5}, 0.1, {0, -1, 0}, 1)});
-    c.longRun = true;
+    c.fullOnly = true;
     c.check = [](const StressOutcome& o) { return expectEmitted(o, true); };
     c.maxSpeed *= 4;
     cases.push_back(c);

@@ -41,7 +41,7 @@ StressCase shakenCup(bool sheet) {
   StressCase c = make(sheet ? "shaken-sheet" : "shaken-cup", "no particle leaves through the walls, which are thin, in 60 s", scene);
   c.duration_s = seconds;
   c.externalWork = true;
-  c.longRun = true;
+  c.fullOnly = true;
   c.check = [low, high](const StressOutcome& o) {
     const Cloud cloud = cloudOf(o.particles, d);
     size_t left = 0;
@@ -107,6 +107,7 @@ std::vector<StressCase> forceCases() {
   }
   cases.push_back(scaled("spacing-0.05-mm", 5e-5));
   cases.push_back(scaled("spacing-50-m", 50));
+  cases.back().fullOnly = true;
   {
     Scene far = dam();
     for (int axis = 0; axis < 3; ++axis) {
@@ -125,7 +126,7 @@ std::vector<StressCase> forceCases() {
     Scene column = tankScene(d, {10 * d, 100 * d, 10 * d}, {10 * d, 130 * d, 10 * d});
     StressCase c = make("column-100-layers", "level within 1 %; rms speed under 0.01 sqrt(g d) = 4.4 mm/s", column);
     c.duration_s = 2;
-    c.longRun = true;
+    c.fullOnly = true;
     c.check = [](const StressOutcome& o) {
       const Cloud cloud = cloudOf(o.particles, d);
       const double level = surfaceLevel(cloud, 0, 0, 10 * d), speed = rmsSpeed(cloud);
@@ -145,6 +146,7 @@ std::vector<StressCase> forceCases() {
     c.externalWork = true;
     c.duration_s = 1.5;
     c.maxSpeed = 60;
+    c.fullOnly = true;
     c.check = [](const StressOutcome& o) {
       const double speed = o.run.instants.back().stats.maxSpeed;
       return speed > 2 ? "maximum speed: found " + number(speed) + " m/s, expected at most 2 m/s" : std::string();
@@ -174,7 +176,7 @@ std::vector<StressCase> forceCases() {
     c.duration_s = substeps / 3840.0;
     c.checksRepeat = true;
     c.frame_s = 1.0 / 60;
-    c.longRun = longRun;
+    c.fullOnly = longRun;
     cases.push_back(std::move(c));
   }
   return cases;
@@ -201,11 +203,14 @@ std::vector<StressCase> sizeCases() {
     c.maxSpeed = speedBound(tank);
     c.duration_s = longRun ? 1.0 / 240 : 1.0 / 60;
     c.frame_s = c.duration_s;
-    c.longRun = longRun;
+    c.fullOnly = longRun;
     c.mayBeRejected = count > 4'194'304;  // where memory is short
     return c;
   };
-  for (const uint64_t count : {0, 1, 63, 64, 65, 4095, 4096, 4097}) cases.push_back(sized(count, false));
+  for (const uint64_t count : {0, 1, 63, 64, 65, 4095, 4096, 4097}) {
+    cases.push_back(sized(count, false));
+    cases.back().fullOnly = count == 63 || count == 4095;
+  }
   // Limits: a list buffer of 128 MiB, lavapipe's largest, in whole blocks; 65,535 workgroups of 64; more than 4 x 2^20.
   const uint64_t block = uint64_t{kListBlock} * listCapacity(Scene{}.fluid.smoothing_ratio + kListSkin, true) * kListEntryBytes,
                  buffer = (uint64_t{1} << 27) / block * kListBlock;

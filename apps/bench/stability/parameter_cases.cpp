@@ -76,6 +76,7 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
       c.maxSpeed = speedBound(scene) + 4 * capillarySpeed(scene);
       c.externalWork = capillarySpeed(scene) > 0;  // the energy of a surface is not measured
       c.mayBeRejected = true;
+      c.fullOnly = value != ends[1];  // many defaults are minima
       cases.push_back(std::move(c));
     }
   });

@@ -31,7 +31,7 @@ struct StressCase {
   bool mayBeRejected = false;      ///< BadInput and TooLarge are valid results
   std::optional<Scene> reference;  ///< the same scene at its usual size and place, run for 0.5 s: errors and energy must agree
   bool checksRepeat = false;       ///< a second run gives the same bits, and the energy does not drift
-  bool longRun = false;            ///< excluded from --quick
+  bool fullOnly = false;           ///< excluded from --quick: long, or much like another case
   std::function<std::string(const StressOutcome&)> check;  ///< empty string: passed; else the value found and expected
 };
 

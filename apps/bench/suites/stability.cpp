@@ -8,7 +8,7 @@
 namespace rill::bench {
 namespace {
 
-constexpr uint64_t kQuickRandom = 4, kRandom = 200;
+constexpr uint64_t kQuickRandom = 2, kRandom = 200;
 
 /// Returns the first failed check of a run; empty if all passed.
 std::string firstFailure(const StressCase& c, const StressOutcome& o, uint64_t particles) {
@@ -50,7 +50,7 @@ class Stability {
     std::vector<StressCase> cases;
     const auto add = [&](std::vector<StressCase> more) {
       for (StressCase& c : more)
-        if (bench_.selected(c.name) && (!c.longRun || !bench_.quick() || c.name == bench_.options().only)) cases.push_back(std::move(c));
+        if (bench_.selected(c.name) && (!c.fullOnly || !bench_.quick() || c.name == bench_.options().only)) cases.push_back(std::move(c));
     };
     add(startCases());
     add(forceCases());
