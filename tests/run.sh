@@ -14,7 +14,7 @@ Installs missing packages (Debian 12, Ubuntu 24.04 or newer; uses sudo if not ro
   tests with the label subgroups on lavapipe with a subgroup size of 16,
   tests with the label threads on lavapipe with one thread per core,
   tests with the label hostile-driver on lavapipe (they use what the specification leaves to drivers),
-  tests with the labels gpu and subgroups on SwiftShader, which has a subgroup size of 4;
+  tests with the labels gpu, drivers and subgroups on SwiftShader, which has a subgroup size of 4;
     if it is not installed, those with the label subgroups on lavapipe with that size.
 Tests of a program share a few processes. With CTEST OPTIONs each runs in its own, so that -R selects by name.
 
@@ -99,7 +99,8 @@ unset LP_NUM_THREADS
 LP_NATIVE_VECTOR_WIDTH=512 run_tests "lavapipe with subgroups of 16 and threads" "$lavapipe" $none -L '^threads$' "$@"
 export LP_NUM_THREADS=0
 if [ -n "$swiftshader" ]; then
-  run_tests "SwiftShader" "$swiftshader" $none "${round[@]}" -L "^${prefix}gpu$" "$@"
+  # Programs, and the tests of gpu and of the contract, have validation by themselves. Every way to gather neighbors: on lavapipe, and where lanes matter.
+  RILL_TEST_VALIDATION=off RILL_TEST_GATHERS=first run_tests "SwiftShader" "$swiftshader" $none "${round[@]}" -L "^(${prefix}gpu|drivers)$" "$@"
   RILL_TEST_VALIDATION=off run_tests "SwiftShader, subgroups of 4" "$swiftshader" $none "${round[@]}" -L "^${prefix}subgroups$" "$@"
 else
   results+=("SwiftShader: skipped, not installed (package chromium-common)")

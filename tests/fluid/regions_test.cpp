@@ -123,7 +123,7 @@ TEST_F(RegionsTest, ZonesFollowFromTheDistanceToOneAwake) {
 }
 
 TEST_F(RegionsTest, BitsAreTheSameAcrossACheckpointInEveryWayToGather) {
-  for (Gather gather : kGathers) {
+  for (Gather gather : gathersInTurn()) {
     SCOPED_TRACE(nameOf(gather));
     Trial t = channel();
     t.gather = gather;

@@ -63,6 +63,11 @@ const char* nameOf(Gather gather) {
                                  : (gather == Gather::Storage ? "list through storage buffers, passes merged" : "grid");
 }
 
+std::span<const Gather> gathersInTurn() {
+  const char* chosen = std::getenv("RILL_TEST_GATHERS");
+  return chosen && std::strcmp(chosen, "first") == 0 ? std::span(kGathers).first(1) : std::span(kGathers);
+}
+
 Scene Trial::timedScene() const {
   Scene timed = scene;
   timed.solver.time_step = step;
@@ -333,20 +338,18 @@ FluidStats FluidTest::Run::stats() {
   return *stats;
 }
 
-Difference FluidTest::difference(const Trial& trial, int substeps) {
+Difference FluidTest::difference(const Trial& trial, int substeps, Oracle& exact) {
   auto run = start(trial);
   if (trial.stepwise)
     for (int n = 0; n < substeps; ++n) run->substeps(1);
   else
     run->substeps(substeps);
   const Snapshot device = run->snapshot();
-  Oracle oracle(trial);
-  oracle.advance(substeps);
-  const auto& exact = oracle.solver().state;
+  const auto& expected = exact.solver().state;
   Difference most;
   for (size_t i = 0; i < device.x.size(); ++i) {
-    const double position = glm::length(device.x[i] - exact.position[i]) / trial.d();
-    const double velocity = glm::length(device.v[i] - exact.velocity[i]) * trial.step / trial.d();
+    const double position = glm::length(device.x[i] - expected.position[i]) / trial.d();
+    const double velocity = glm::length(device.v[i] - expected.velocity[i]) * trial.step / trial.d();
     if (!(position <= most.position)) most.worst = i;
     // Not std::max: what is not a number has to stand out.
     if (!(position <= most.position)) most.position = position;
@@ -356,7 +359,7 @@ Difference FluidTest::difference(const Trial& trial, int substeps) {
 }
 
 void FluidTest::forEachGather(Trial trial, int substeps, const std::function<void(Run&)>& check) {
-  for (Gather gather : kGathers) {
+  for (Gather gather : gathersInTurn()) {
     SCOPED_TRACE(nameOf(gather));
     trial.gather = gather;
     auto run = start(trial);
@@ -366,10 +369,12 @@ void FluidTest::forEachGather(Trial trial, int substeps, const std::function<voi
 }
 
 void FluidTest::expectEqual(Trial trial, int substeps, double position, double velocity, double ageing) {
-  for (Gather gather : kGathers) {
+  Oracle oracle(trial);
+  oracle.advance(substeps);
+  for (Gather gather : gathersInTurn()) {
     trial.gather = gather;
     SCOPED_TRACE(std::string(nameOf(gather)) + ", " + std::to_string(substeps) + " substeps");
-    const Difference most = difference(trial, substeps);
+    const Difference most = difference(trial, substeps, oracle);
     if (std::getenv("RILL_SHOW"))
       std::printf("%s %d: %.3g %.3g (%zu)\n", nameOf(gather), substeps, most.position, most.velocity, most.worst);
     EXPECT_LE(most.position, position + (gather == Gather::Grid ? 0 : ageing)) << "spacings, particle " << most.worst;

@@ -5,6 +5,7 @@
 #include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace rill::test {
 /// The three ways to gather neighbors. Storage is what GPUs run: its passes are merged, too.
 enum class Gather { Texel, Storage, Grid };
 inline constexpr Gather kGathers[] = {Gather::Texel, Gather::Storage, Gather::Grid};
+/// All of them; the first alone where the environment has RILL_TEST_GATHERS=first: each takes pipelines of its own.
+std::span<const Gather> gathersInTurn();
 const char* nameOf(Gather gather);
 
 /// A scene with its particles, and the fixed step that both solvers take.
@@ -147,11 +150,11 @@ class FluidTest : public GpuTest {
     uint64_t before_;
   };
 
-  /// Calls check() with a run of the trial after `substeps`, for every way to gather neighbors.
+  /// Calls check() with a run of the trial after `substeps`, for each of gathersInTurn().
   void forEachGather(Trial trial, int substeps, const std::function<void(Run&)>& check);
-  /// After `substeps` of both solvers.
-  Difference difference(const Trial& trial, int substeps);
-  /// For every way to gather neighbors: none above the limits (spacings). `ageing` is added for the list, in which pairs that have come
+  /// After `substeps`; `exact` has made as many.
+  Difference difference(const Trial& trial, int substeps, Oracle& exact);
+  /// For each of gathersInTurn(): none above the limits (spacings). `ageing` is added for the list, in which pairs that have come
   /// nearer by more than its skin since it was built are missing: fragments that fly apart at several spacings in ten substeps.
   void expectEqual(Trial trial, int substeps, double position, double velocity, double ageing = 0);
 };

@@ -78,7 +78,7 @@ double height(const Snapshot& s) {
 }
 
 TEST_F(SleepTest, StillTankFallsAsleepInEveryWayToGather) {
-  for (Gather gather : kGathers) {
+  for (Gather gather : gathersInTurn()) {
     SCOPED_TRACE(nameOf(gather));
     Trial t = stillTank();
     t.gather = gather;

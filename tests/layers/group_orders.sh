@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# group_orders.sh RILL_CAPTURE LAYERS: the state hash of a dam break is the same in 20 orders of the workgroups, and with twice
+# group_orders.sh RILL_CAPTURE LAYERS: the state hash of a dam break is the same in 8 orders of the workgroups, and with twice
 # as many threads as cores.
 set -euo pipefail
 capture=$1
@@ -20,7 +20,7 @@ check() {
   found=$(hash_of "$@") || found="an error"
   [ "$found" = "$expected" ] || { echo "$*: found $found, expected $expected" >&2; failed=1; }
 }
-for seed in $(seq 20); do check LP_NUM_THREADS=0 VK_INSTANCE_LAYERS=VK_LAYER_RILL_hostile RILL_TEST_HOSTILE=groups="$seed"; done
+for seed in $(seq 8); do check LP_NUM_THREADS=0 VK_INSTANCE_LAYERS=VK_LAYER_RILL_hostile RILL_TEST_HOSTILE=groups="$seed"; done
 check LP_NUM_THREADS=$((2 * $(nproc)))
-check LP_NUM_THREADS=$((2 * $(nproc))) VK_INSTANCE_LAYERS=VK_LAYER_RILL_hostile RILL_TEST_HOSTILE=groups=21
+check LP_NUM_THREADS=$((2 * $(nproc))) VK_INSTANCE_LAYERS=VK_LAYER_RILL_hostile RILL_TEST_HOSTILE=groups=9
 exit $failed
