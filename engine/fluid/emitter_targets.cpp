@@ -25,6 +25,14 @@ Double3 turnedWith(const Double3& v, const Double3& from, const Double3& to) {
   return along(along(v, 1, across), 1 / (1 + cosine), cross(axis, across));
 }
 
+/// Whether a target takes a mouth to another place, or turns it, so far that what it displaced was elsewhere.
+bool jumps(const EmitterRecord& r, const EmitterTarget& target, const Double3& origin, double spacing) {
+  constexpr double kTurn = 0.9;  // cosine
+  const Double3 from = {r.centerX, r.centerY, r.centerZ};
+  if (target.center && length(minus(minus(*target.center, origin), from)) > spacing / 2) return true;
+  return target.normal && dot(normalized(*target.normal), {r.normalX, r.normalY, r.normalZ}) < kTurn;
+}
+
 /// The new mouth of an emitter.
 void change(EmitterRecord& r, const MouthSize& size, const EmitterTarget& target, const Double3& origin) {
   if (target.center) place(r, minus(*target.center, origin));
@@ -67,19 +75,24 @@ void FluidImpl::declareEmitters(Graph& graph, const FluidStep& step) {
   struct Update {
     uint64_t at;
     EmitterRecord record;
+    bool jumps;
   };
   std::vector<Update> updates;
   for (const EmitterTarget& target : step.emitters) {
     EmitterRecord& record = setup.emitters[target.emitter];
+    const bool far = jumps(record, target, origin, setup.params.spacing);
     change(record, setup.mouthSizes[target.emitter], target, origin);
-    updates.push_back({target.emitter * sizeof record, record});
+    updates.push_back({target.emitter * sizeof record, record, far});
   }
   graph.pass("change emitters", [&](Pass& pass) {
     BufferRef& target = ref(FluidArray::Emitters);
     target = pass.write(target, Use::CopyTarget);
     return [updates = std::move(updates), target = target](Commands& commands) {
-      for (const Update& update : updates)
+      for (const Update& update : updates) {
         commands.update(target, std::as_bytes(std::span(&update.record, 1)).first(kMouthBytes), update.at);
+        constexpr float kShut = 0;  // it opens anew where it is now
+        if (update.jumps) commands.update(target, std::as_bytes(std::span(&kShut, 1)), update.at + offsetof(EmitterRecord, opened));
+      }
     };
   });
 }

@@ -16,7 +16,7 @@
 namespace rill {
 namespace {
 
-/// Where a mouth that lies on a wall, and faces away from it, is taken to be: half a spacing off it, as the first layer of particles is.
+/// Where a mouth less than half a spacing off a wall, which faces away from it, is taken to be: half a spacing off, as the first layer is.
 Double3 offWalls(const Scene& scene, Double3 center, const Double3& normal) {
   constexpr double kFaces = 0.999, kOn = 1e-6;
   if (!scene.domain) return center;
@@ -128,7 +128,7 @@ Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& s
                         grouped(lattice.shared) + " of " + grouped(lattice.points.size()) +
                             " points of a layer are in several triangles; expected a mesh that does not overlap itself");
     EmitterRecord r{};
-    place(r, minus(offWalls(scene, lattice.center, lattice.normal), origin));
+    place(r, minus(emitter.motion.empty() ? offWalls(scene, lattice.center, lattice.normal) : lattice.center, origin));
     setAxes(r, lattice.normal, lattice.across, lattice.up);
     r.halfAcross = f(lattice.half.first);
     r.halfUp = f(lattice.half.second);

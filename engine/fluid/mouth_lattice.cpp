@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/overloaded.hpp"
 #include "core/vector_math.hpp"
@@ -55,18 +56,19 @@ void fill(const RectMouth& rect, double spacing, MouthLattice& lattice) {
 }
 
 /// The lattice whose number of points in the mouth takes its area: the pitch is sqrt(area / number). Of several, the one of the number that
-/// is nearest to the spacing's, then the one whose points are balanced about the centroid. If there is none, what is off by the least.
+/// is nearest to the spacing's, then the one whose points are balanced about the centroid. If none fits, what is off by the least.
 MouthGrid gridFor(const FlatMouth& flat, double spacing) {
-  constexpr double kMostOff = 0.15;  // of the number of points
+  constexpr double kMaxOff = 0.15;  // of the number of points
   constexpr int kTries = 65, kShifts = 64;
   const double wanted = flat.area / (spacing * spacing), nearest = std::max(1.0, std::round(wanted));
   const MouthPoint middle = {(flat.low[0] + flat.high[0]) / 2, (flat.low[1] + flat.high[1]) / 2};
   MouthGrid best;
-  std::pair least{2.0, 0.0};  // share of the number that is off: no point at all is 1; m, from the centroid to that of the points
+  std::pair least{std::numeric_limits<double>::infinity(),
+                  0.0};  // share of the number that is off; m, from the centroid to that of the points
   for (int attempt = 0; attempt < kTries && least.first > 0; ++attempt) {
     const int away = (attempt + 1) / 2;
     const double number = nearest + ((attempt % 2 == 1) == (nearest < wanted) ? away : -away);
-    if (attempt > 0 && !(number >= 1 && std::abs(number - wanted) <= kMostOff * wanted)) continue;
+    if (attempt > 0 && !(number >= 1 && std::abs(number - wanted) <= kMaxOff * wanted)) continue;
     const double pitch = std::sqrt(flat.area / number);
     for (int shift = 0; shift < kShifts; ++shift) {
       const auto share = [&](int axis) {  // of the pitch, in eighths
@@ -74,6 +76,7 @@ MouthGrid gridFor(const FlatMouth& flat, double spacing) {
       };
       const MouthGrid grid{{pitch, pitch}, {middle[0] + share(0) * pitch, middle[1] + share(1) * pitch}};
       const MouthSum sum = sumIn(flat, grid);
+      if (sum.count == 0) continue;
       const std::pair off{std::abs(sum.count / number - 1), std::hypot(sum.moment[0], sum.moment[1]) / std::max(sum.count, 1.0)};
       if (off < least) least = off, best = grid;
     }
@@ -86,7 +89,8 @@ void fill(const MeshMouth& mesh, double spacing, MouthLattice& lattice) {
   lattice.normal = flat.normal, lattice.across = flat.across;
   lattice.half = {std::max(-flat.low[0], flat.high[0]), std::max(-flat.low[1], flat.high[1])};
   lattice.arm = minus(flat.center, mesh.translation);
-  for (const auto& [x, y] : pointsIn(flat, gridFor(flat, spacing), &lattice.shared)) lattice.points.push_back({f(x), f(y)});
+  if (flat.area > spacing * spacing)  // else it is of one particle
+    for (const auto& [x, y] : pointsIn(flat, gridFor(flat, spacing), &lattice.shared)) lattice.points.push_back({f(x), f(y)});
   if (!lattice.points.empty()) return;
   const auto [x, y] = middleOf(flat);
   lattice.points.push_back({f(x), f(y)});

@@ -63,8 +63,9 @@ void ReferenceSolver::addMouths(const glm::dvec3& x, double t, SolidSample& samp
     SolidSample sum;
     for (const Image& image : images) {
       const SolidSample own = densityOfMouth(emitter, t, image.of(x), settings.spacing, halfSpaceAt);
-      const glm::dvec3 gradient = image.sign * vec(own.gradient);
-      sum.value += own.value;
+      const double share = shareOfMouthImage(emitter, t, image.of(x), walls_, settings.spacing);
+      const glm::dvec3 gradient = share * image.sign * vec(own.gradient);
+      sum.value += share * own.value;
       for (int a = 0; a < 3; ++a) sum.gradient[static_cast<size_t>(a)] += gradient[a];
     }
     sample = unionOf(sample, sum);
@@ -74,7 +75,7 @@ void ReferenceSolver::addMouths(const glm::dvec3& x, double t, SolidSample& samp
 double ReferenceSolver::emitterSpeed() const {
   double fastest = 0;
   for (const EmitterSettings& emitter : settings.emitters)
-    if (time_ >= emitter.from && time_ < emitter.until) fastest = std::max(fastest, glm::length(emitter.velocity) + emitter.motionSpeed);
+    if (time_ < emitter.until) fastest = std::max(fastest, glm::length(emitter.velocity) + emitter.motionSpeed);
   return fastest;
 }
 

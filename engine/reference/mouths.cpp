@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -86,10 +87,27 @@ SolidSample densityOfMouth(const EmitterSettings& e, double t, const glm::dvec3&
   return {.value = mouth->strength * along.value * beside, .gradient = {gradient.x, gradient.y, gradient.z}};
 }
 
+double shareOfMouthImage(const EmitterSettings& e, double t, const glm::dvec3& image, const Walls& walls, double spacing) {
+  const std::optional<Mouth> mouth = openMouth(e, t);
+  if (!mouth) return 0;
+  const glm::dvec3 back = -0.5 * std::min(mouth->thickness, spacing) * mouth->normal;
+  const glm::dvec3 front = (mouth->phase - 0.5) * mouth->thickness * mouth->normal;
+  const glm::dvec3 beside = e.halfAcross * glm::abs(mouth->across) + e.halfUp * glm::abs(mouth->up);
+  double share = 1;
+  for (int a = 0; a < 3; ++a) {
+    const double low = mouth->middle[a] + std::min(back[a], front[a]) - beside[a];
+    const double high = mouth->middle[a] + std::max(back[a], front[a]) + beside[a];
+    const double through = image[a] < walls.lo[a] ? walls.lo[a] - low : image[a] > walls.hi[a] ? high - walls.hi[a] : 0;
+    share *= 1 - std::clamp(through / spacing, 0.0, 1.0);
+  }
+  return share;
+}
+
 SolidSample unionOf(const SolidSample& a, const SolidSample& b) {
   SolidSample both = a;
-  both.value += b.value * (1 - a.value);
-  for (size_t axis = 0; axis < 3; ++axis) both.gradient[axis] = a.gradient[axis] * (1 - b.value) + b.gradient[axis] * (1 - a.value);
+  const double roomOfA = std::max(1 - a.value, 0.0), roomOfB = std::max(1 - b.value, 0.0);
+  both.value += b.value * roomOfA;
+  for (size_t axis = 0; axis < 3; ++axis) both.gradient[axis] = a.gradient[axis] * roomOfB + b.gradient[axis] * roomOfA;
   return both;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "reference/emitters.hpp"
+#include "reference/images.hpp"
 #include "sph/half_space.hpp"
 #include "sph/solid_scale.hpp"
 
@@ -17,7 +18,11 @@ using HalfSpace = std::function<LineSample(double distance)>;
 /// What the fluid in the mouth displaces at `x` (m) at time `t` (s), without images behind walls; `spacing`: m.
 SolidSample densityOfMouth(const EmitterSettings& emitter, double t, const glm::dvec3& x, double spacing, const HalfSpace& halfSpace);
 
-/// The density of two overlapping things as that of their union.
+/// The share of an image of the mouth that counts, which has x at `image`: of a mouth that reaches through a wall the part behind it counts
+/// itself, so that its image fades within a spacing.
+double shareOfMouthImage(const EmitterSettings& emitter, double t, const glm::dvec3& image, const Walls& walls, double spacing);
+
+/// The density of two overlapping things as that of their union; `a` may be more than 1 where solids overlap.
 SolidSample unionOf(const SolidSample& a, const SolidSample& b);
 
 struct Push {

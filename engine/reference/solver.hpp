@@ -180,7 +180,7 @@ class ReferenceSolver {
   SolidSample boundaryOf(const glm::dvec3& x, std::span<const Pose> poses, double t) const;
   void addMouths(const glm::dvec3& x, double t, SolidSample& sample) const;
   void keepMouthsFree(double dt);
-  double emitterSpeed() const;  ///< m/s, of the fastest open mouth
+  double emitterSpeed() const;  ///< m/s, of the fastest mouth that is open or may open in the advance
   /// Calls visit(solid, sample, image) with what each solid displaces at each image of x, in the scene's frame and not reflected.
   void forEachSample(const glm::dvec3& x, std::span<const Pose> poses,
                      const std::function<void(size_t, const SolidSample&, const Image&)>& visit) const;

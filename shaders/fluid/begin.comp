@@ -53,9 +53,10 @@ void main() {
     float nextTravel = control.travel + (fastest + acceleration * control.nextStep) * control.nextStep;
     if (control.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && control.listState == kListValid)
       control.listState = kListDue;
-    bool due = control.emissionWait <= 0.0 || push.mouths != 0u || regionsAreDue();
+    bool due = control.emissionWait <= 0.0 || regionsAreDue();
     if (due && control.listState == kListValid) control.listState = kListDue;
   }
+  if (push.mouths != 0u && control.listState == kListValid) control.listState = kListDue;
   control.running = going && control.listState == kListValid ? 1u : 0u;
   control.again = 0u;
   switchCommands(kNoSubstep);

@@ -6,7 +6,6 @@
 #include "fluid/images.glsl"
 #include "shared/arrays.glsl"
 #include "shared/flow_records.h"
-#include "shared/loops.glsl"
 #include "shared/neighbor_list.h"
 layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { MouthDensityPush push; };
@@ -38,14 +37,12 @@ vec3 crossSection(vec2 place, vec2 middle, vec2 half_) {
 
 // Of a mouth of any outline: the sum over its points, each the middle of a square of the lattice.
 vec3 cellsAt(uint e, vec2 place, float half_) {
-  float reach = params.support + half_;
-  uint end = emitters[e].firstPoint + emitters[e].points, k = firstMouthPoint(e, place.y - reach, -kNever);
+  vec2 low = place - (params.support + half_), high = place + (params.support + half_);
+  uint end = emitters[e].firstPoint + emitters[e].points, k = firstMouthPoint(e, low.y, -kNever);
   vec3 sum = vec3(0.0);
-  while (k < end && mouthPoints[k].y < place.y + reach) {
-    float row = mouthPoints[k].y;
-    for (k = firstMouthPoint(e, row, place.x - reach); k < end && mouthPoints[k].y == row && mouthPoints[k].x < place.x + reach; ++k)
-      sum += crossSection(place, mouthPoints[k], vec2(half_));
-    k = firstMouthPoint(e, row, kNever);
+  while (k < end) {  // each turn goes on by a point at least
+    if (!isBetween(e, low, high, end, k)) continue;
+    sum += crossSection(place, mouthPoints[k++], vec2(half_));
   }
   return sum;
 }
@@ -64,17 +61,32 @@ vec4 mouthSample(uint e, MouthFrame frame, OpenMouth mouth, vec3 x) {
   return mouth.strength * vec4(gradient, along.x * beside.z);
 }
 
+// How much of the mouth's image counts, which has x at `image`: of a mouth that reaches through a wall the part behind it counts itself,
+// so that its image fades within a spacing.
+float shareOfImage(uint e, MouthFrame frame, OpenMouth mouth, vec3 image) {
+  float thickness = emitters[e].speed / emitters[e].rate;
+  vec3 back = -0.5 * min(thickness, params.spacing) * frame.normal, front = (mouth.phase - 0.5) * thickness * frame.normal;
+  vec3 beside = emitters[e].halfAcross * abs(frame.across) + emitters[e].halfUp * abs(frame.up), center = centerOf(frame.pose);
+  vec3 low = wallsLow() - (center + min(back, front) - beside), high = center + max(back, front) + beside - wallsHigh();
+  float share = 1.0;
+  for (int a = 0; a < 3; ++a) {
+    float through = image[a] < wallsLow()[a] ? low[a] : (image[a] > wallsHigh()[a] ? high[a] : 0.0);
+    share *= 1.0 - clamp(through / params.spacing, 0.0, 1.0);
+  }
+  return share;
+}
+
 // Of the mouth and its images behind walls.
 vec4 reflectedSample(uint e, MouthFrame frame, OpenMouth mouth, vec3 x) {
   vec4 sum = vec4(0.0);
   Images images = imagesNear(x, params.support);
   bool more = true;
-  LOOP_WHILE (more) {
+  while (more) {  // tested at its top, as the loop in it is: docs/notes/lavapipe.md
     vec3 signs, image = imageOf(nextImage(images), x, signs);
-    vec4 one = mouthSample(e, frame, mouth, image);
+    vec4 one = shareOfImage(e, frame, mouth, image) * mouthSample(e, frame, mouth, image);
     sum += vec4(signs * one.xyz, one.w);
     more = advance(images);
-  } LOOP_END(more);
+  }
   return sum;
 }
 
@@ -89,8 +101,8 @@ void main() {
     OpenMouth mouth;
     if (!isOpen(e, later, mouth)) continue;
     vec4 own = reflectedSample(e, mouthFrame(e, control.timeHigh + control.timeLow + later), mouth, x);
-    vec3 gradient = displaced.xyz * (1.0 - own.w) + own.xyz * (1.0 - displaced.w);  // of their union
-    displaced = vec4(gradient, displaced.w + own.w * (1.0 - displaced.w));
+    float room = max(1.0 - displaced.w, 0.0);  // solids that overlap may displace more than there is
+    displaced = vec4(displaced.xyz * max(1.0 - own.w, 0.0) + own.xyz * room, displaced.w + own.w * room);  // of their union
   }
   nearDisplaced[i] = displaced;
 }

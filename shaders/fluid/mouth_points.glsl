@@ -14,17 +14,23 @@ uint firstMouthPoint(uint e, float row, float column) {
   return low;
 }
 
+// Whether point k lies between two corners. If not, k goes on to the next that may; `end`: behind the mouth's last point.
+bool isBetween(uint e, vec2 low, vec2 high, uint end, inout uint k) {
+  vec2 point = mouthPoints[k];
+  if (point.x >= low.x && point.x < high.x && point.y < high.y) return true;
+  k = point.y < high.y ? firstMouthPoint(e, point.y, point.x < low.x ? low.x : kNever) : end;
+  return false;
+}
+
 // Whether a point is nearer to `place` than `reach`, and what leads to the place from the nearest one.
 bool isNearMouthPoint(uint e, vec2 place, float reach, out vec2 nearest) {
-  uint end = emitters[e].firstPoint + emitters[e].points, k = firstMouthPoint(e, place.y - reach, -kNever);
+  vec2 low = place - reach, high = place + reach;
+  uint end = emitters[e].firstPoint + emitters[e].points, k = firstMouthPoint(e, low.y, -kNever);
   nearest = vec2(reach, 0.0);
-  while (k < end && mouthPoints[k].y < place.y + reach) {
-    float row = mouthPoints[k].y;
-    for (k = firstMouthPoint(e, row, place.x - reach); k < end && mouthPoints[k].y == row && mouthPoints[k].x < place.x + reach; ++k) {
-      vec2 from = place - mouthPoints[k];
-      if (dot(from, from) < dot(nearest, nearest)) nearest = from;
-    }
-    k = firstMouthPoint(e, row, kNever);
+  while (k < end) {  // each turn goes on by a point at least
+    if (!isBetween(e, low, high, end, k)) continue;
+    vec2 from = place - mouthPoints[k++];
+    if (dot(from, from) < dot(nearest, nearest)) nearest = from;
   }
   return dot(nearest, nearest) < reach * reach;
 }

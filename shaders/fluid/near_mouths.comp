@@ -13,11 +13,12 @@ layout(std430, binding = 6) buffer HeadBlock { uint listHead[]; };
 layout(std430, binding = 7) writeonly buffer NearMouthsBlock { uint nearMouths[]; };
 #include "fluid/mouth_frame.glsl"
 
-// Whether x is near the mouth: the host may open it at any time.
+// Whether x is near the mouth: the host may open it at any time. nearLimit is for the travel of one of the two, and from the surface; the
+// mouth's own travel, half a square of its lattice and half a layer come to two spacings more.
 bool isNear(uint e, vec3 x) {
   MouthFrame frame = mouthFrame(e, control.timeHigh + control.timeLow);
   vec3 from = x - centerOf(frame.pose);
-  float along = dot(from, frame.normal), reach = params.nearLimit + params.spacing;
+  float along = dot(from, frame.normal), reach = params.nearLimit + 2.0 * params.spacing;
   if (along < -reach || along > reach + 1.5 * kThickestLayer * params.spacing) return false;
   vec2 side = abs(vec2(dot(from, frame.across), dot(from, frame.up)));
   return side.x < emitters[e].halfAcross + reach && side.y < emitters[e].halfUp + reach;

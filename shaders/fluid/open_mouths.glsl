@@ -11,8 +11,9 @@ struct OpenMouth {
 bool isOpen(uint e, float later, out OpenMouth mouth) {
   float now = control.timeHigh + control.timeLow + later, rate = emitters[e].rate;
   float since = (control.timeHigh - emitters[e].doneHigh) + (control.timeLow - emitters[e].doneLow) + later;
-  mouth.phase = min(float(emitters[e].due) + float(emitters[e].phase) / 4294967296.0 + rate * since, 1.5);
-  mouth.strength = min(emitters[e].opened + rate * clamp(now - emitters[e].from, 0.0, since), 1.0);
+  float layers = rate * clamp(now - emitters[e].from, 0.0, since);
+  mouth.phase = min(float(emitters[e].due) + float(emitters[e].phase) / 4294967296.0 + layers, 1.5);
+  mouth.strength = min(emitters[e].opened + layers, 1.0);
   return rate > 0.0 && (emitters[e].blocked & kNoRoom) == 0u && now > emitters[e].from && now <= emitters[e].until;
 }
 #endif

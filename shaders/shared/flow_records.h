@@ -30,7 +30,7 @@ struct EmitterRecord {
   float upX, upY, upZ;
   float halfAcross, halfUp;         // m, half the mouth's size; of a round one its radius
   float from, until;                // s
-  uint firstPoint, points;          // of its layer, among the mouths' points; of a mesh by rows, those along `across`
+  uint firstPoint, points;          // of its layer, among the mouths' points, by rows along `across`
   uint shape;                       // kRectMouth and so on
   uint firstKey, keyCount;          // of its motion, entries of the keyframe buffer
   float motionSpeed;                // m/s, at most, of the mouth's own motion

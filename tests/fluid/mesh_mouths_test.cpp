@@ -83,6 +83,27 @@ TEST_F(FlowsTest, MeshMouthOfLessThanAParticleHasOnePoint) {
   }
 }
 
+// A slot narrower than half a spacing has a row of points, as a rectangle of its size does.
+TEST_F(FlowsTest, SlotsHaveARowOfPoints) {
+  constexpr double d = 0.1;
+  for (const auto& [length, width] : {std::pair{20 * d, 0.4 * d}, {30 * d, 0.3 * d}, {10 * d, 0.4 * d}}) {
+    SCOPED_TRACE(std::to_string(length) + " x " + std::to_string(width));
+    const MouthLattice slot = mouthLattice(mouthOf(rectMesh(length, width)), d);
+    EXPECT_GE(double(slot.points.size()), length / d / 2);
+    EXPECT_NEAR(double(slot.points.size()) * d * d * d, slot.thickness * slot.area, 1e-12);
+  }
+}
+
+// The device searches for points by row and column.
+TEST_F(FlowsTest, PointsOfMouthsLieByRows) {
+  for (const Mouth& mouth :
+       {Mouth{DiscMouth{{0, 0, 0}, 0.37, {1, 2, 3}}}, Mouth{mouthOf(ringMesh(0.2, 0.5, 24))}, Mouth{mouthOf(twoPieces())}}) {
+    const auto points = mouthLattice(mouth, 0.04).points;
+    EXPECT_TRUE(std::ranges::is_sorted(points, {}, [](const auto& p) { return std::pair{p[1], p[0]}; }));
+    EXPECT_EQ(std::ranges::adjacent_find(points), points.end());
+  }
+}
+
 /// Away from its origin and turned out of its plane.
 MeshMouth placed(MeshData data) {
   MeshMouth mouth = mouthOf(moved(std::move(data), 0.2, -0.1));

@@ -44,6 +44,26 @@ TEST_F(MouthsTest, DiscMatchesReference) {
   expectEqual(t, 8, 2e-4, 2e-3, 1e-3);
 }
 
+TEST_F(MouthsTest, DiscThatOpensWithinAnAdvanceMatchesReference) {
+  Trial t = fluidAround(disc({0, 0, 0}, 0.12, {0, 0, 1}, 1));
+  t.scene.emitters[0].speed = 2 * slowSpeed(t);
+  t.scene.emitters[0].from = 2.5 * t.step;
+  expectActs(t);
+  expectEqual(t, 8, 2e-4, 2e-3, 2e-3);
+}
+
+TEST_F(MouthsTest, DiscThatReachesThroughAWallMatchesReference) {
+  Trial t = trial();
+  setWalls(t, {1, 1, 0.5});
+  t.scene.solver.tolerance = 0;
+  t.scene.emitters = {disc({0.29, 0.31 * t.d(), 0.247}, 0.15, {1, 0.03, 0.02}, 1)};
+  t.scene.emitters[0].speed = slowSpeed(t);
+  t.x = block({10, 6, 8}, t.d(), {}, 0.1, 3);
+  t.capacity = 600;
+  expectActs(t);
+  expectEqual(t, 8, 2e-4, 2e-3, 2e-3);
+}
+
 TEST_F(MouthsTest, RectangleThatTurnsMatchesReference) {
   Trial t = fluidAround({.mouth = RectMouth{{0, 0, 0}, {0.26, 0.13}, {0, -1, 0}, {1, 0, 1}}});
   t.scene.emitters[0].speed = slowSpeed(t);
@@ -107,6 +127,31 @@ TEST_F(MouthsTest, InflowUnderItsOwnWeightKeepsItsSpeedAtAnyStep) {
     EXPECT_LT(most, 0.15) << "step " << step;
     EXPECT_LT(run->stats().densityErrorMax, 0.01) << "step " << step;
   }
+}
+
+// The list of particles near mouths follows a mouth that the host has moved, in an advance of no time, too.
+TEST_F(MouthsTest, ActsWhereTheHostHasMovedIt) {
+  Trial t = fluidAround(disc({5, 0, 0}, 0.12, {1, 0, 0}, 1));
+  const double flow = slowSpeed(t) * mouthLattice(t.scene.emitters[0].mouth, t.d()).area;
+  std::vector<Snapshot> ends;
+  for (const double first : {0.0, 8 * t.step}) {
+    auto run = start(t);
+    run->substeps(2);
+    run->emitters = {{.flow = flow, .center = Double3{0, 0, 0}}};
+    if (first == 0) run->advance(0);
+    run->advance(8 * t.step);
+    ends.push_back(run->snapshot());
+  }
+  auto away = start(t);
+  away->substeps(10);
+  double acts = 0, differs = 0;
+  const Snapshot still = away->snapshot();
+  for (size_t i = 0; i < t.x.size(); ++i) {
+    acts = std::max(acts, glm::length(ends[0].x[i] - still.x[i]));
+    differs = std::max(differs, glm::length(ends[0].x[i] - ends[1].x[i]));
+  }
+  EXPECT_GT(acts, 0.05 * t.d());
+  EXPECT_LT(differs, 1e-3 * t.d());
 }
 
 // A tap that is drawn on a wall works as an inflow does: its layers do not wait at the wall for the first half spacing.

@@ -1,6 +1,7 @@
 // Each key of fluid and solver at its minimum and maximum, from the parser's field table; then random combinations.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "bench/mesh_shapes.hpp"
@@ -40,6 +41,17 @@ void set(Owner& owner, const model::Field<Owner, Value>& field, double value) {
     owner.*field.member = static_cast<Value>(std::llround(value));
 }
 
+/// Of a field, as set() takes it; NaN of others.
+template <class Owner, class Value>
+double numberOf(const Owner& owner, const model::Field<Owner, Value>& field) {
+  if constexpr (std::is_same_v<Value, std::optional<double>>)
+    return (owner.*field.member).value_or(std::numeric_limits<double>::quiet_NaN());
+  else if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>)
+    return static_cast<double>(owner.*field.member);
+  else
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Excludes keys that define the resolution of the scene, and the memory that it takes.
 bool isTested(std::string_view key) { return key != "spacing" && key != "particles" && key != "capacity"; }
 
@@ -76,7 +88,7 @@ void addExtremes(std::vector<StressCase>& cases, const std::string& owner, Owner
       c.maxSpeed = speedBound(scene) + 4 * capillarySpeed(scene);
       c.externalWork = capillarySpeed(scene) > 0;  // the energy of a surface is not measured
       c.mayBeRejected = true;
-      c.fullOnly = value != ends[1];  // many defaults are minima
+      c.fullOnly = value == ends[0] && numberOf(smallDam().*part, field) == value;  // as it is without
       cases.push_back(std::move(c));
     }
   });
