@@ -95,6 +95,36 @@ class FlowsTest : public FluidTest {
     return l;
   }
 
+  /// What each emitter has let out at a time is its flow (m^3/s) times the time that it was open, within a layer.
+  void expectExactFlow(const Trial& t, const std::vector<double>& flows, const std::vector<double>& frames) {
+    for (const double frame : frames) {
+      auto run = start(t);
+      for (int k = 1; k * frame < 0.401; ++k) {
+        run->advance(frame);
+        run->stats();
+        const double time = run->progress().time_s;
+        for (size_t e = 0; e < flows.size(); ++e) {
+          const MouthLattice lattice = mouthLattice(t.scene.emitters[e].mouth, t.d());
+          const double open = std::min(time, t.scene.emitters[e].until.value_or(1e9));
+          EXPECT_NEAR(run->fluid().emitted()[e].volume, flows[e] * open, lattice.area * lattice.thickness) << e << " at " << time;
+        }
+      }
+      expectBalance(*run);
+    }
+  }
+
+  /// A run that resumes halfway has the bits of one without a break. The ledger at the end.
+  FluidLedger goesOnFromASnapshot(const Trial& t) {
+    auto whole = start(t);
+    for (int frame = 0; frame < 4; ++frame) whole->advance(1.0 / 60);
+    const FluidSnapshot half = whole->saved();
+    for (int frame = 0; frame < 4; ++frame) whole->advance(1.0 / 60);
+    auto again = start(t, &half);
+    for (int frame = 0; frame < 4; ++frame) again->advance(1.0 / 60);
+    EXPECT_EQ(firstDifference(again->saved(), whole->saved()), "");
+    return whole->stats().ledger;
+  }
+
   /// expectBirths() after 0.4 s, at several steps and in every way to gather.
   void expectBirthsInEveryWay(Trial t) {
     for (const double step : {1e-3, 2.7e-3, 8e-3})

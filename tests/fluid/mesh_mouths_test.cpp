@@ -142,20 +142,7 @@ TEST_F(FlowsTest, FlowOfMeshesIsExactWhateverTheFrames) {
   beside.translation = {3, 0, 0};
   t.scene.emitters = {{.mouth = mouthOf(cornerMesh(0.2)), .speed = 2}, {.mouth = beside, .flow = 0.03, .until = 0.31}};
   t.step = 4e-3;
-  for (const double frame : {0.4, 1.0 / 60}) {
-    auto run = start(t);
-    for (int k = 1; k * frame < 0.401; ++k) {
-      run->advance(frame);
-      run->stats();
-      const double time = run->progress().time_s;
-      for (size_t e = 0; e < 2; ++e) {
-        const double flow = e == 0 ? 2 * 3 * 0.2 * 0.2 : 0.03, open = std::min(time, t.scene.emitters[e].until.value_or(1e9));
-        const MouthLattice lattice = mouthLattice(t.scene.emitters[e].mouth, t.d());
-        EXPECT_NEAR(run->fluid().emitted()[e].volume, flow * open, lattice.area * lattice.thickness) << e << " at " << time;
-      }
-    }
-    expectBalance(*run);
-  }
+  expectExactFlow(t, {2 * 3 * 0.2 * 0.2, 0.03}, {0.4, 1.0 / 60});
 }
 
 // Single particles, of which those in the place of the next layer are pushed along the flow, or away from the rim.
@@ -203,14 +190,7 @@ TEST_F(FlowsTest, MeshMouthGoesOnFromASnapshotBitForBit) {
   Trial t = tank();
   t.scene.emitters = {{.mouth = placed(cornerMesh(0.1)), .speed = 4}};
   t.scene.emitters[0].motion = {{.at = 0.01}, {.at = 0.2, .translate = {0.3, 0, 0}, .rotate = turn({0, 0, 1}, 0.6)}};
-  auto whole = start(t);
-  for (int frame = 0; frame < 4; ++frame) whole->advance(1.0 / 60);
-  const FluidSnapshot half = whole->saved();
-  for (int frame = 0; frame < 4; ++frame) whole->advance(1.0 / 60);
-  auto again = start(t, &half);
-  for (int frame = 0; frame < 4; ++frame) again->advance(1.0 / 60);
-  EXPECT_EQ(firstDifference(again->saved(), whole->saved()), "");
-  EXPECT_GT(whole->stats().ledger.emitted, 20u);
+  EXPECT_GT(goesOnFromASnapshot(t).emitted, 20u);
 }
 
 }  // namespace flows_test
