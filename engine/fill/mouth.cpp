@@ -12,12 +12,6 @@
 namespace rill {
 namespace {
 
-/// The axis that is most nearly across `v`.
-Double3 axisAcross(const Double3& v) {
-  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
-  return x <= y && x <= z ? Double3{1, 0, 0} : y <= z ? Double3{0, 1, 0} : Double3{0, 0, 1};
-}
-
 /// How many samples a mouth has along a side of a size (m).
 double samplesAlong(double size, double spacing) {
   constexpr double kMax = 16;
@@ -143,7 +137,7 @@ std::vector<Double3> samplesOf(const Mouth& mouth, double spacing) {
   if (const auto* rect = std::get_if<RectMouth>(&mouth)) return gridOf(*rect, spacing, [](double, double) { return true; });
   if (const auto* mesh = std::get_if<MeshMouth>(&mouth)) return samplesOf(flatMouth(*mesh), spacing);
   const auto& disc = std::get<DiscMouth>(mouth);
-  const RectMouth square{disc.center, {2 * disc.radius, 2 * disc.radius}, disc.normal, axisAcross(disc.normal)};
+  const RectMouth square{disc.center, {2 * disc.radius, 2 * disc.radius}, disc.normal, unitAcross(normalized(disc.normal))};
   return gridOf(square, spacing, [](double u, double v) { return u * u + v * v < 1; });
 }
 

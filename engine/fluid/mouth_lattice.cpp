@@ -14,9 +14,6 @@
 namespace rill {
 namespace {
 
-/// A unit vector across a unit vector.
-Double3 anyAcross(const Double3& v) { return normalized(cross(std::abs(v.y) < 0.9 ? Double3{0, 1, 0} : Double3{0, 0, 1}, v)); }
-
 /// Points of a square lattice of pitch 1 inside a circle; `first`: of a point.
 std::vector<std::array<double, 2>> pointsInCircle(double radius, const std::array<double, 2>& first) {
   std::vector<std::array<double, 2>> points;
@@ -31,7 +28,7 @@ std::vector<std::array<double, 2>> pointsInCircle(double radius, const std::arra
 // area's.
 void fill(const DiscMouth& disc, double spacing, MouthLattice& lattice) {
   lattice.normal = normalized(disc.normal);
-  lattice.across = anyAcross(lattice.normal);
+  lattice.across = unitAcross(lattice.normal);
   lattice.half = {disc.radius, disc.radius};
   const double wanted = lattice.area / (spacing * spacing);
   std::vector<std::array<double, 2>> best = {{0, 0}};

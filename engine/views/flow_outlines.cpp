@@ -68,9 +68,6 @@ class Outline {
   std::vector<LineRecord>& lines_;
 };
 
-/// A unit vector across a unit vector.
-Double3 unitAcross(const Double3& v) { return normalized(cross(std::abs(v.y) < 0.9 ? Double3{0, 1, 0} : Double3{1, 0, 0}, v)); }
-
 /// With a line from the center in the direction of the flow. `outline`: in the frame of the mouth's pivot.
 void addMouth(const Mouth& mouth, Outline outline) {
   std::visit(Overloaded{[&](const DiscMouth& disc) {
