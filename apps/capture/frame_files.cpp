@@ -85,13 +85,19 @@ Expected<void> FrameFiles::writeParticles(uint32_t number, double time_s, offlin
   if (!particles) return particles.error();
   if (options_.exportPly)
     if (auto written = apps::writePly(folder_->frame(number, "ply"), *particles, time_s); !written) return written;
-  if (options_.exportPly && scene_.look.whitewater) {
-    auto white = simulation.whitewater();
-    if (!white) return white.error();
-    if (auto written = apps::writeFile(folder_->frame(number, "whitewater.ply"), apps::encodeWhitewaterPly(*white, time_s)); !written)
-      return written;
-  }
-  return options_.exportVtk ? apps::writeFile(folder_->frame(number, "vtu"), apps::encodeVtu(*particles, time_s)) : Expected<void>();
+  if (options_.exportVtk)
+    if (auto written = apps::writeFile(folder_->frame(number, "vtu"), apps::encodeVtu(*particles, time_s)); !written) return written;
+  return scene_.look.whitewater ? writeWhitewater(number, time_s, simulation) : Expected<void>();
+}
+
+Expected<void> FrameFiles::writeWhitewater(uint32_t number, double time_s, offline::Simulation& simulation) const {
+  auto white = simulation.whitewater();
+  if (!white) return white.error();
+  const auto write = [&](bool wanted, const char* extension, auto encode) {
+    return wanted ? apps::writeFile(folder_->frame(number, extension), encode(*white, time_s)) : Expected<void>();
+  };
+  if (auto written = write(options_.exportPly, "whitewater.ply", apps::encodeWhitewaterPly); !written) return written;
+  return write(options_.exportVtk, "whitewater.vtu", apps::encodeWhitewaterVtu);
 }
 
 Expected<void> FrameFiles::writePoses() const {
@@ -110,6 +116,7 @@ Expected<void> FrameFiles::writeSeries(size_t frames) const {
     return apps::writeFile(folder_->file(name), apps::encodePvd(files));
   };
   if (auto written = write(options_.exportVtk, "particles.pvd", "vtu"); !written) return written;
+  if (auto written = write(options_.exportVtk && scene_.look.whitewater, "whitewater.pvd", "whitewater.vtu"); !written) return written;
   return write(options_.exportMesh && options_.meshFormat == apps::MeshFormat::Vtp, "mesh.pvd", "mesh.vtp");
 }
 

@@ -41,6 +41,7 @@ class FrameFiles {
   Expected<void> writeImages(uint32_t number, offline::Simulation& simulation);
   Expected<void> writeMesh(uint32_t number, double time_s, offline::Simulation& simulation);
   Expected<void> writeParticles(uint32_t number, double time_s, offline::Simulation& simulation) const;
+  Expected<void> writeWhitewater(uint32_t number, double time_s, offline::Simulation& simulation) const;
 
   const Options& options_;
   const Scene& scene_;

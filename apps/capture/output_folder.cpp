@@ -16,8 +16,8 @@ namespace {
 
 bool isFrame(std::string_view name) {
   constexpr std::string_view prefix = "frame_";
-  constexpr std::array<std::string_view, 9> extensions = {".png",      ".exr",      ".ply", ".whitewater.ply", ".mesh.ply", ".mesh.obj",
-                                                          ".mesh.glb", ".mesh.vtp", ".vtu"};
+  constexpr std::array<std::string_view, 10> extensions = {".png",      ".exr",      ".ply", ".whitewater.ply", ".mesh.ply", ".mesh.obj",
+                                                           ".mesh.glb", ".mesh.vtp", ".vtu", ".whitewater.vtu"};
   if (!name.starts_with(prefix)) return false;
   name.remove_prefix(prefix.size());
   const size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());

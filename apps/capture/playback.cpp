@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "shared/exr.hpp"
 #include "shared/message.hpp"
 #include "shared/pipeline_cache_folder.hpp"
+#include "shared/ply.hpp"
 #include "shared/png.hpp"
 #include "shared/progress.hpp"
 #include "shared/scene_folders.hpp"
@@ -29,48 +31,68 @@ namespace {
 
 void message(const std::string& text) { apps::printMessage("rill-capture", text); }
 
-/// DIR/*.ply in order of their names, without meshes and whitewater. Unless `quiet`, says so if there is whitewater.
-Expected<std::vector<fs::path>> filesIn(const fs::path& folder, bool quiet) {
+struct FrameFile {
+  fs::path particles;
+  std::optional<fs::path> whitewater = {};  ///< the file beside it, of the same name
+};
+
+fs::path whitewaterOf(const fs::path& particles) { return fs::path(particles).replace_extension("whitewater.ply"); }
+
+/// DIR/*.ply in order of their names, without meshes. Unless `quiet`, says so if there is whitewater that is not drawn.
+Expected<std::vector<FrameFile>> filesIn(const fs::path& folder, const Scene& scene, bool quiet) {
   std::error_code error;
   std::vector<fs::path> files;
-  size_t whitewater = 0;
+  std::set<fs::path> whitewater;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().string();
     if (name.ends_with(".whitewater.ply"))
-      ++whitewater;
+      whitewater.insert(at->path());
     else if (name.ends_with(".ply") && !name.ends_with(".mesh.ply"))
       files.push_back(at->path());
   }
   if (error) return Error{ErrorKind::BadInput, "--play: cannot read the folder " + inQuotes(folder.string()) + ": " + error.message()};
   if (files.empty())
     return Error{ErrorKind::BadInput, "--play: " + inQuotes(folder.string()) + " contains no .ply file; expected a folder of frames"};
-  if (whitewater > 0 && !quiet)
-    message("warning: --play: whitewater (" + grouped(whitewater) + " of .whitewater.ply) is not drawn; drops and thin sheets are white");
   std::sort(files.begin(), files.end());
-  return files;
+  std::vector<FrameFile> frames;
+  for (const fs::path& file : files) {
+    frames.push_back({file});
+    if (scene.look.whitewater && whitewater.erase(whitewaterOf(file)) > 0) frames.back().whitewater = whitewaterOf(file);
+  }
+  if (!whitewater.empty() && !quiet)
+    message("warning: --play: whitewater (" + grouped(whitewater.size()) + " of .whitewater.ply) is not drawn: " +
+            (scene.look.whitewater ? inQuotes(whitewater.begin()->string()) + " has no particles of the fluid beside it"
+                                   : "look.whitewater is false (--set rill=0.2 look.whitewater=true)"));
+  return frames;
 }
 
-/// Shows the particles of a file, relative to the first one to keep precision far from the origin.
+/// The particles of a file, relative to the first one to keep precision far from the origin.
 /// `warned`: says once where a file has no velocities; null: nothing needs them.
-Expected<void> show(offline::Player& player, const fs::path& file, double time_s, bool* warned) {
-  auto opened = PlyFile::open(file, player.scene().fluids.size(), diffusingFluids(player.scene()));
-  if (!opened) return Error{opened.error().kind, "--play: " + opened.error().message};
+Expected<offline::PlayedFrame> readFrame(const FrameFile& file, const Scene& scene, bool* warned) {
+  const auto refused = [](const Error& error) { return Error{error.kind, "--play: " + error.message}; };
+  auto opened = PlyFile::open(file.particles, scene.fluids.size(), diffusingFluids(scene));
+  if (!opened) return refused(opened.error());
   auto particles = opened->read();
-  if (!particles) return Error{particles.error().kind, "--play: " + particles.error().message};
+  if (!particles) return refused(particles.error());
   if (warned && !*warned && particles->velocities.empty() && !particles->positions.empty()) {
-    message("warning: --shutter: " + inQuotes(file.string()) + " has no velocities (vx, vy, vz): its fluid is drawn without motion blur");
+    message("warning: --shutter: " + inQuotes(file.particles.string()) +
+            " has no velocities (vx, vy, vz): its fluid is drawn without motion blur");
     *warned = true;
   }
-  Double3 origin = {0, 0, 0};
-  if (!particles->positions.empty()) {
-    const Double3& first = particles->positions.front();
-    origin[0] = first.x, origin[1] = first.y, origin[2] = first.z;
-  }
-  std::vector<Float3> positions;
-  positions.reserve(particles->positions.size());
+  offline::PlayedFrame frame;
+  if (!particles->positions.empty()) frame.origin = particles->positions.front();
+  frame.positions.reserve(particles->positions.size());
   for (const Double3& p : particles->positions)
-    positions.push_back({static_cast<float>(p.x - origin[0]), static_cast<float>(p.y - origin[1]), static_cast<float>(p.z - origin[2])});
-  return player.show(positions, origin, particles->velocities, time_s, particles->fluids, particles->concentrations);
+    frame.positions.push_back(
+        {static_cast<float>(p.x - frame.origin.x), static_cast<float>(p.y - frame.origin.y), static_cast<float>(p.z - frame.origin.z)});
+  frame.velocities = std::move(particles->velocities);
+  frame.fluids = std::move(particles->fluids);
+  frame.concentrations = std::move(particles->concentrations);
+  if (!file.whitewater) return frame;
+  auto whitewater = apps::readWhitewaterPly(*file.whitewater);
+  if (!whitewater) return refused(whitewater.error());
+  frame.whitewater = *std::move(whitewater);
+  return frame;
 }
 
 }  // namespace
@@ -84,7 +106,7 @@ int runPlayback(const Options& options) {
   if (!found) return refuse(found.error());
   auto scene = loadScene(*found, options.overrides);
   if (!scene) return refuse(scene.error());
-  auto files = filesIn(*options.play, options.quiet);
+  auto files = filesIn(*options.play, *scene, options.quiet);
   if (!files) return refuse(files.error());
   if (options.frames && *options.frames < files->size()) files->resize(*options.frames);
   const bool byName = fs::path(options.scene) != *found;
@@ -133,7 +155,10 @@ int runPlayback(const Options& options) {
   uint64_t hits = 0;
   bool warned = options.quiet;
   const auto frame = [&](uint32_t k) -> Expected<void> {
-    if (auto shown = show(*player, (*files)[k], k / options.fps, options.film.shutter_deg > 0 ? &warned : nullptr); !shown) return shown;
+    auto read = readFrame((*files)[k], player->scene(), options.film.shutter_deg > 0 ? &warned : nullptr);
+    if (!read) return read.error();
+    read->time_s = k / options.fps;
+    if (auto shown = player->show(*read); !shown) return shown;
     if (options.exr) {
       auto image = player->renderLinear(options.width, options.height);
       if (!image) return image.error();
@@ -157,7 +182,7 @@ int runPlayback(const Options& options) {
       break;
     }
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    progress.show({"frame", done + 1, count, apps::printable((*files)[done].filename().string()), spent});
+    progress.show({"frame", done + 1, count, apps::printable((*files)[done].particles.filename().string()), spent});
   }
   progress.clear();
   if (video)  // after a failure, too: the video of the frames so far is complete

@@ -54,9 +54,8 @@ void declareOptions(CLI::App& app, RawOptions& raw) {
       ->group(written);
   app.add_flag("--no-images", raw.noImages, "write no image files; without --video render none")->group(written);
   list("--export", raw.exportAs,
-       "write of each frame the particles (ply, those of whitewater as .whitewater.ply; vtk: .vtu and DIR/particles.pvd for ParaView), the "
-       "fluid's surface (mesh), or where the "
-       "solids are (poses: DIR/poses.csv); may be repeated",
+       "write of each frame the particles (ply; vtk: .vtu and DIR/particles.pvd for ParaView; those of whitewater as .whitewater.ply or "
+       "vtu), the fluid's surface (mesh), or where the solids are (poses: DIR/poses.csv); may be repeated",
        "FORMAT", written);
   once("--mesh-format", raw.meshFormat, "of --export mesh: ply, obj, glb or vtp (with DIR/mesh.pvd) (default: ply)", "FORMAT", written);
   once("--mesh-cell", raw.meshCell, "side of the mesh's grid cells in particle spacings, 0.25 to 1 (default: 0.5)", "SPACINGS", written);

@@ -1,12 +1,17 @@
 #include "shared/ply.hpp"
 
+#include <array>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
+#include <string_view>
 
+#include "core/numbers.hpp"
+#include "core/words.hpp"
+#include "fill/ply_format.hpp"
 #include "shared/atomic_file.hpp"
 
 namespace rill::apps {
@@ -21,14 +26,8 @@ struct Vertex {
 static_assert(sizeof(Vertex) == 32);
 static_assert(std::endian::native == std::endian::little, "the records are written as they are in memory");
 
-std::string shortest(double value) {
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-  return error == std::errc{} ? std::string(text, end) : "0";
-}
-
 std::string headOf(double time_s, const char* comments, size_t count) {
-  return "ply\nformat binary_little_endian 1.0\ncomment time " + shortest(time_s) + "\n" + comments + "element vertex " +
+  return "ply\nformat binary_little_endian 1.0\ncomment time " + shortestNumber(time_s) + "\n" + comments + "element vertex " +
          std::to_string(count) + "\n";
 }
 
@@ -79,6 +78,47 @@ std::vector<std::byte> encodeWhitewaterPly(const offline::DiffuseParticles& part
     next[sizeof numbers] = static_cast<std::byte>(particles.classes[i]);
   }
   return bytes;
+}
+
+Expected<offline::DiffuseParticles> readWhitewaterPly(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 8> kNames{"x", "y", "z", "vx", "vy", "vz", "class", "age"};
+  constexpr size_t kClass = 6, kAge = 7;
+  const auto header = ply::readHeader(file, "vertex");
+  if (!header) return header.error();
+  if (header->elements.empty() || header->elements.back().name != "vertex")
+    return header->badInput("the header has no vertex element; expected one with x, y, z, vx, vy, vz and class");
+  std::array<int, kNames.size()> column;
+  column.fill(-1);
+  if (auto ok = header->findColumns(header->elements.back(), kNames, column); !ok) return ok.error();
+  for (size_t k = 0; k < kAge; ++k)
+    if (column[k] < 0) return header->badInput("has no property \"" + std::string(kNames[k]) + "\", which whitewater needs");
+  if (auto ok = header->checkCounts(); !ok) return ok.error();
+  ply::Body body(*header);
+  if (!body.isOpen()) return header->badInput("cannot be read");
+  offline::DiffuseParticles all;
+  std::vector<double> row;
+  for (const ply::Element& element : header->elements) {
+    for (uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+      if (auto ok = body.read(element, i, row); !ok) return ok.error();
+      if (element.name != "vertex") continue;
+      std::array<double, kNames.size()> v{};
+      for (size_t k = 0; k < kNames.size(); ++k)
+        if (column[k] >= 0) v[k] = row[static_cast<size_t>(column[k])];
+      if (auto ok = header->checkMotion(i, std::span(v).first(kClass)); !ok) return ok.error();
+      if (v[kClass] != 0 && v[kClass] != 1 && v[kClass] != 2)
+        return header->badInput("vertex " + grouped(i) + ", property \"class\": found " + shortestNumber(v[kClass]) +
+                                ", expected 0 (spray), 1 (foam) or 2 (bubble)");
+      if (!fitsFloat(v[kAge]))
+        return header->badInput("vertex " + grouped(i) + ", property \"age\": found " + shortestNumber(v[kAge]) +
+                                ", expected a finite number");
+      const auto number = [&](size_t k) { return static_cast<float>(v[k]); };
+      all.positions.push_back({number(0), number(1), number(2)});
+      all.velocities.push_back({number(3), number(4), number(5)});
+      all.ages.push_back(number(kAge));
+      all.classes.push_back(static_cast<WhitewaterClass>(v[kClass]));
+    }
+  }
+  return all;
 }
 
 Expected<void> writePly(const std::filesystem::path& file, const offline::Particles& particles, double time_s) {

@@ -17,5 +17,7 @@ Expected<void> writePly(const std::filesystem::path& file, const offline::Partic
 
 /// Diffuse particles likewise: float x y z vx vy vz age (s), uchar class (0 spray, 1 foam, 2 bubble).
 std::vector<std::byte> encodeWhitewaterPly(const offline::DiffuseParticles& particles, double time_s);
+/// Reads that, or any PLY with these properties; `age` may be missing. BadInput naming the file, what was found and what was expected.
+Expected<offline::DiffuseParticles> readWhitewaterPly(const std::filesystem::path& file);
 
 }  // namespace rill::apps

@@ -50,6 +50,19 @@ std::vector<int64_t> counting(size_t count, int64_t step) {
   return all;
 }
 
+/// Particles, each a point and a cell of it. `attributes`: the arrays of the points, which come first.
+std::vector<std::byte> pointsFile(VtkArrays& arrays, const std::vector<Float3>& positions, const std::string& attributes, double time_s) {
+  const size_t count = positions.size();
+  const std::string number = std::to_string(count);
+  std::vector<int64_t> points(count);
+  std::iota(points.begin(), points.end(), int64_t{0});
+  std::string piece = "<Piece NumberOfPoints=\"" + number + "\" NumberOfCells=\"" + number + "\">\n" + attributes;
+  piece += "<Points>\n" + arrays.add("Float32", "Points", 3, positions) + "</Points>\n";
+  piece += "<Cells>\n" + arrays.add("Int64", "connectivity", 1, points) + arrays.add("Int64", "offsets", 1, counting(count, 1)) +
+           arrays.add("UInt8", "types", 1, std::vector<uint8_t>(count, 1)) + "</Cells>\n</Piece>\n";
+  return arrays.file("UnstructuredGrid", time_s, piece);
+}
+
 }  // namespace
 
 std::vector<std::byte> encodeVtp(const offline::SurfaceTriangles& mesh, double time_s) {
@@ -68,22 +81,26 @@ std::vector<std::byte> encodeVtp(const offline::SurfaceTriangles& mesh, double t
 
 std::vector<std::byte> encodeVtu(const offline::Particles& particles, double time_s) {
   VtkArrays arrays;
-  const size_t count = particles.positions.size();
-  assert(particles.velocities.size() == count && particles.densities.size() == count && particles.ids.size() == count);
-  const std::string number = std::to_string(count);
-  std::vector<int64_t> points(count);
-  std::iota(points.begin(), points.end(), int64_t{0});
-  std::string piece = "<Piece NumberOfPoints=\"" + number + "\" NumberOfCells=\"" + number + "\">\n";
-  piece += "<PointData Scalars=\"density\" Vectors=\"velocity\">\n" + arrays.add("Float32", "velocity", 3, particles.velocities) +
-           arrays.add("Float32", "density", 1, particles.densities) + arrays.add("UInt32", "id", 1, particles.ids);
-  if (!particles.fluids.empty()) piece += arrays.add("UInt8", "fluid", 1, particles.fluids);
+  assert(particles.velocities.size() == particles.positions.size() && particles.densities.size() == particles.positions.size() &&
+         particles.ids.size() == particles.positions.size());
+  std::string attributes = "<PointData Scalars=\"density\" Vectors=\"velocity\">\n" +
+                           arrays.add("Float32", "velocity", 3, particles.velocities) +
+                           arrays.add("Float32", "density", 1, particles.densities) + arrays.add("UInt32", "id", 1, particles.ids);
+  if (!particles.fluids.empty()) attributes += arrays.add("UInt8", "fluid", 1, particles.fluids);
   for (size_t n = 0; n < particles.concentrations.size(); ++n)
-    piece += arrays.add("Float32", ("concentration" + std::to_string(particles.diffusing[n])).c_str(), 1, particles.concentrations[n]);
-  piece += "</PointData>\n";
-  piece += "<Points>\n" + arrays.add("Float32", "Points", 3, particles.positions) + "</Points>\n";
-  piece += "<Cells>\n" + arrays.add("Int64", "connectivity", 1, points) + arrays.add("Int64", "offsets", 1, counting(count, 1)) +
-           arrays.add("UInt8", "types", 1, std::vector<uint8_t>(count, 1)) + "</Cells>\n</Piece>\n";
-  return arrays.file("UnstructuredGrid", time_s, piece);
+    attributes += arrays.add("Float32", ("concentration" + std::to_string(particles.diffusing[n])).c_str(), 1, particles.concentrations[n]);
+  return pointsFile(arrays, particles.positions, attributes + "</PointData>\n", time_s);
+}
+
+std::vector<std::byte> encodeWhitewaterVtu(const offline::DiffuseParticles& particles, double time_s) {
+  VtkArrays arrays;
+  assert(particles.velocities.size() == particles.positions.size() && particles.ages.size() == particles.positions.size());
+  std::vector<uint8_t> classes;
+  for (const WhitewaterClass one : particles.classes) classes.push_back(static_cast<uint8_t>(one));
+  const std::string attributes = "<PointData Scalars=\"class\" Vectors=\"velocity\">\n" +
+                                 arrays.add("Float32", "velocity", 3, particles.velocities) +
+                                 arrays.add("Float32", "age", 1, particles.ages) + arrays.add("UInt8", "class", 1, classes);
+  return pointsFile(arrays, particles.positions, attributes + "</PointData>\n", time_s);
 }
 
 std::string encodePvd(std::span<const std::pair<double, std::string>> files) {

@@ -210,6 +210,14 @@ Expected<void> Header::findColumns(const Element& vertex, std::span<const std::s
   return {};
 }
 
+Expected<void> Header::checkMotion(uint64_t vertex, std::span<const double> values) const {
+  for (size_t k = 0; k < values.size(); ++k)
+    if (!fitsFloat(values[k]))
+      return badInput("vertex " + grouped(vertex) + ": " + (k < 3 ? "the position" : "the velocity") + " is " + shortestNumber(values[k]) +
+                      " along " + "xyz"[k % 3] + "; expected a finite number that a 32-bit float can hold");
+  return {};
+}
+
 Body::Body(const Header& header)
     : header_(header),
       in_(header.file, std::ios::binary),

@@ -41,6 +41,8 @@ struct Header {
   Expected<void> checkCounts() const;
   /// Finds the properties `names` of a vertex, the first three of which are required. `column`: their indices; -1 if missing.
   Expected<void> findColumns(const Element& vertex, std::span<const std::string_view> names, std::span<int> column) const;
+  /// Whether x y z, and vx vy vz if given, of a vertex are finite and fit a 32-bit float.
+  Expected<void> checkMotion(uint64_t vertex, std::span<const double> values) const;
 };
 
 /// Opens a file and parses its header. Elements after the one called `last` are left out.

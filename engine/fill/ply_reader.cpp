@@ -1,6 +1,7 @@
 #include "fill/ply_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -75,13 +76,10 @@ Expected<PlyParticles> PlyFile::read() const {
       if (auto ok = body.read(element, i, row); !ok) return ok.error();
       if (!vertex) continue;
       const auto at = [&](size_t k) { return row[static_cast<size_t>(header.column[k])]; };
-      for (size_t k = 0; k < (header.hasVelocity() ? 6U : 3U); ++k) {
-        if (!fitsFloat(at(k))) {
-          return header.badInput("vertex " + grouped(i) + ": " + (k < 3 ? "the position" : "the velocity") + " is " +
-                                 shortestNumber(at(k)) + " along " + "xyz"[k % 3] +
-                                 "; expected a finite number that a 32-bit float can hold");
-        }
-      }
+      std::array<double, 6> motion{};
+      const size_t given = header.hasVelocity() ? 6 : 3;
+      for (size_t k = 0; k < given; ++k) motion[k] = at(k);
+      if (auto ok = header.checkMotion(i, std::span(motion).first(given)); !ok) return ok.error();
       out.positions.push_back({at(0), at(1), at(2)});
       if (header.hasVelocity()) out.velocities.push_back({static_cast<float>(at(3)), static_cast<float>(at(4)), static_cast<float>(at(5))});
       if (header.hasFluid()) {

@@ -10,9 +10,12 @@
 #include "offline/open_context.hpp"
 #include "offline/painter.hpp"
 #include "offline/picture_run.hpp"
+#include "offline/whitewater_run.hpp"
 #include "rill/offline.hpp"
 
 namespace rill::offline {
+
+constexpr size_t kMaxPlayedWhitewater = size_t{1} << 22;  // as WhitewaterDesc::room
 
 class Player::Impl {
  public:
@@ -33,44 +36,25 @@ class Player::Impl {
     return {};
   }
 
-  Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities, double time_s,
-                      const std::vector<uint8_t>& fluids, const std::vector<Float4>& concentrations) {
-    if (positions.size() > kMaxParticles)
-      return Error{ErrorKind::TooLarge, std::to_string(positions.size()) + " particles; expected at most " + std::to_string(kMaxParticles)};
-    if (!velocities.empty() && velocities.size() != positions.size())
-      return Error{ErrorKind::BadInput, "found " + std::to_string(velocities.size()) + " velocities for " +
-                                            std::to_string(positions.size()) + " positions, expected equal numbers"};
-    if (!fluids.empty() && fluids.size() != positions.size())
-      return Error{ErrorKind::BadInput, "found " + std::to_string(fluids.size()) + " fluids for " + std::to_string(positions.size()) +
-                                            " positions, expected equal numbers"};
-    if (!concentrations.empty() && concentrations.size() != positions.size())
-      return Error{ErrorKind::BadInput, "found concentrations of " + std::to_string(concentrations.size()) + " particles for " +
-                                            std::to_string(positions.size()) + " positions, expected equal numbers"};
-    const size_t known = std::max<size_t>(scene_.fluids.size(), 1);
-    if (const auto wrong = std::ranges::find_if(fluids, [&](uint8_t fluid) { return fluid >= known; }); wrong != fluids.end())
-      return Error{ErrorKind::BadInput, "found fluid " + std::to_string(*wrong) + " of a particle, expected an index below " +
-                                            std::to_string(known) + ", the number of the scene's fluids"};
-    count_ = static_cast<uint32_t>(positions.size());
-    time_s_ = time_s;
-    origin_ = origin;
+  Expected<void> show(const PlayedFrame& frame) {
+    if (auto valid = check(frame); !valid) return valid;
+    count_ = static_cast<uint32_t>(frame.positions.size());
+    time_s_ = frame.time_s;
+    origin_ = frame.origin;
     pictures_.contentChanged();
-    mixes_ = !concentrations.empty();
+    mixes_ = !frame.concentrations.empty();
+    foams_ = scene_.look.whitewater && frame.whitewater.has_value();
     if (count_ == 0) return {};
-    if (mixes_) {
-      if (auto room = makeRoom(concentration_); !room) return room;
-      std::memcpy(concentration_.mapped(), concentrations.data(), concentrations.size() * sizeof(Float4));
-    }
-    for (const auto& [buffer, from] : {std::pair{&position_, &positions}, std::pair{&velocity_, &velocities}}) {
-      if (auto room = makeRoom(*buffer); !room) return room;
-      std::byte* to = buffer->mapped();
-      for (uint32_t i = 0; i < count_; ++i, to += sizeof(Float4)) {
-        const Float3 v = from->empty() ? Float3{} : (*from)[i];
-        const float w = buffer == &velocity_ ? 1.0f : fluids.empty() ? 0.0f : static_cast<float>(fluids[i]);
-        const Float4 record{v.x, v.y, v.z, w};
-        std::memcpy(to, &record, sizeof record);
-      }
-    }
-    return {};
+    if (mixes_)
+      if (auto set = upload(concentration_, frame.concentrations); !set) return set;
+    if (foams_)
+      if (auto set = setWhitewater(*frame.whitewater); !set) return set;
+    const auto fluidOf = [&](size_t i) { return frame.fluids.empty() ? 0.0f : static_cast<float>(frame.fluids[i]); };
+    std::vector<Float4> records(count_);
+    for (size_t i = 0; i < count_; ++i) records[i] = withW(frame.positions[i], fluidOf(i));
+    if (auto set = upload(position_, records); !set) return set;
+    for (size_t i = 0; i < count_; ++i) records[i] = withW(frame.velocities.empty() ? Float3{} : frame.velocities[i], 1);
+    return upload(velocity_, records);
   }
 
   Expected<void> prepareRender(std::string_view view, uint32_t width, uint32_t height) {
@@ -95,22 +79,66 @@ class Player::Impl {
   const Scene& scene() const { return scene_; }
 
  private:
-  /// For a vector of each particle.
-  Expected<void> makeRoom(Buffer& buffer) {
-    const uint64_t bytes = uint64_t{count_} * sizeof(Float4);
-    if (buffer.size() >= bytes) return {};
-    auto made = createBuffer(context_->device(), "played particles", bytes, MemoryKind::Upload);
-    if (!made) return made.error();
-    buffer = std::move(*made);
+  static Float4 withW(const Float3& v, float w) { return {v.x, v.y, v.z, w}; }
+
+  Expected<void> check(const PlayedFrame& frame) const {
+    const size_t count = frame.positions.size();
+    if (count > kMaxParticles)
+      return Error{ErrorKind::TooLarge, std::to_string(count) + " particles; expected at most " + std::to_string(kMaxParticles)};
+    const auto fits = [&](size_t found, const char* what) -> Expected<void> {
+      if (found == 0 || found == count) return {};
+      return Error{ErrorKind::BadInput,
+                   "found " + std::to_string(found) + " " + what + " for " + std::to_string(count) + " positions, expected equal numbers"};
+    };
+    if (auto ok = fits(frame.velocities.size(), "velocities"); !ok) return ok;
+    if (auto ok = fits(frame.fluids.size(), "fluids"); !ok) return ok;
+    if (auto ok = fits(frame.concentrations.size(), "concentrations"); !ok) return ok;
+    const size_t known = std::max<size_t>(scene_.fluids.size(), 1);
+    if (const auto wrong = std::ranges::find_if(frame.fluids, [&](uint8_t fluid) { return fluid >= known; }); wrong != frame.fluids.end())
+      return Error{ErrorKind::BadInput, "found fluid " + std::to_string(*wrong) + " of a particle, expected an index below " +
+                                            std::to_string(known) + ", the number of the scene's fluids"};
+    return frame.whitewater ? checkWhitewater(*frame.whitewater) : Expected<void>();
+  }
+
+  static Expected<void> checkWhitewater(const DiffuseParticles& white) {
+    const size_t count = white.positions.size();
+    if (count > kMaxPlayedWhitewater)
+      return Error{ErrorKind::TooLarge,
+                   std::to_string(count) + " particles of whitewater; expected at most " + std::to_string(kMaxPlayedWhitewater)};
+    if (white.velocities.size() == count && white.classes.size() == count && white.ages.size() == count) return {};
+    return Error{ErrorKind::BadInput, "found " + std::to_string(count) + " positions, " + std::to_string(white.velocities.size()) +
+                                          " velocities, " + std::to_string(white.ages.size()) + " ages and " +
+                                          std::to_string(white.classes.size()) + " classes of whitewater, expected equal numbers"};
+  }
+
+  Expected<void> setWhitewater(const DiffuseParticles& white) {
+    const WhitewaterSnapshot state = whitewaterSnapshot(white, origin_);
+    whiteRoom_ = static_cast<uint32_t>(state.place.size());
+    if (auto set = upload(whitePlace_, state.place); !set) return set;
+    if (auto set = upload(whiteMotion_, state.motion); !set) return set;
+    return upload(whiteCounts_, state.counts);
+  }
+
+  /// Makes room where it is missing.
+  template <class Record>
+  Expected<void> upload(Buffer& buffer, const std::vector<Record>& records) {
+    const uint64_t bytes = std::max<uint64_t>(records.size(), 1) * sizeof(Record);
+    if (buffer.size() < bytes) {
+      auto made = createBuffer(context_->device(), "played particles", bytes, MemoryKind::Upload);
+      if (!made) return made.error();
+      buffer = std::move(*made);
+    }
+    if (!records.empty()) std::memcpy(buffer.mapped(), records.data(), records.size() * sizeof(Record));
     return {};
   }
 
   template <class T>
   Expected<void> draw(std::string_view view, std::vector<T>& rgba, uint32_t width, uint32_t height, PixelKind kind) {
     if (auto ready = prepareRender(view, width, height); !ready) return ready.error();
-    const PictureRun::Source source{.time_s = time_s_,
-                                    .content = [&](Graph& graph) { return PictureRun::Content{.fluid = drawn(graph)}; },
-                                    .run = [&](Graph& graph, const auto& declare) { return run(graph, declare); }};
+    const PictureRun::Source source{
+        .time_s = time_s_,
+        .content = [&](Graph& graph) { return PictureRun::Content{.fluid = drawn(graph), .white = drawnWhitewater(graph)}; },
+        .run = [&](Graph& graph, const auto& declare) { return run(graph, declare); }};
     return pictures_.draw(painter_, source, view, width, height, kind, rgba);
   }
 
@@ -125,6 +153,15 @@ class Player::Impl {
       if (mixes_) fluid.concentration = staged(graph, "played concentrations", concentration_);
     }
     return fluid;
+  }
+
+  DrawnWhitewater drawnWhitewater(Graph& graph) {
+    if (!foams_ || count_ == 0) return {};
+    return {.state = {.place = staged(graph, "played places of whitewater", whitePlace_),
+                      .motion = staged(graph, "played motions of whitewater", whiteMotion_),
+                      .counts = staged(graph, "played counts of whitewater", whiteCounts_),
+                      .room = std::max(whiteRoom_, 1u)},
+            .size = drawnRadius(whitewaterOf(scene_, start_, static_cast<uint32_t>(capacityOf(scene_, start_.positions.size()))))};
   }
 
   Expected<void> run(Graph& graph, const std::function<void(Graph&)>& declare) {
@@ -149,8 +186,10 @@ class Player::Impl {
   Scene scene_;
   ParticleSet start_;  ///< framed if the scene has no camera
   std::optional<Context> context_;
-  Buffer position_, velocity_, concentration_;
-  bool mixes_ = false;  ///< there are concentrations
+  Buffer position_, velocity_, concentration_, whitePlace_, whiteMotion_, whiteCounts_;
+  bool mixes_ = false;      ///< there are concentrations
+  bool foams_ = false;      ///< there is whitewater to draw
+  uint32_t whiteRoom_ = 0;  ///< its particles
   uint32_t count_ = 0;
   Double3 origin_ = {0, 0, 0};
   double time_s_ = 0;
@@ -171,10 +210,7 @@ Expected<Player> Player::open(Scene scene, const Options& options) {
   });
 }
 
-Expected<void> Player::show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities,
-                            double time_s, const std::vector<uint8_t>& fluids, const std::vector<Float4>& concentrations) {
-  return impl_->show(positions, origin, velocities, time_s, fluids, concentrations);
-}
+Expected<void> Player::show(const PlayedFrame& frame) { return impl_->show(frame); }
 
 Expected<Image> Player::render(const std::string& view, uint32_t width, uint32_t height) {
   return guarded("drawing", [&] { return impl_->render(view, width, height); });

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "whitewater/whitewater_records.h"
+
 namespace rill::offline {
 namespace {
 
@@ -69,6 +71,20 @@ DiffuseParticles diffuseParticles(const WhitewaterSnapshot& state, const Double3
     all.classes.push_back(static_cast<WhitewaterClass>(tag & 3));
   }
   return all;
+}
+
+WhitewaterSnapshot whitewaterSnapshot(const DiffuseParticles& particles, const Double3& origin) {
+  WhitewaterSnapshot state;
+  state.counts.resize(kWhiteCountWords);
+  state.counts[kWhiteCount] = static_cast<uint32_t>(particles.positions.size());
+  for (size_t k = 0; k < particles.positions.size(); ++k) {
+    const Float3 &p = particles.positions[k], &v = particles.velocities[k];
+    state.place.push_back(
+        {static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y), static_cast<float>(p.z - origin.z), particles.ages[k]});
+    state.motion.push_back({std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z),
+                            static_cast<uint32_t>(particles.classes[k])});
+  }
+  return state;
 }
 
 }  // namespace rill::offline

@@ -121,6 +121,13 @@ TEST(MeshFile, VtkFilesHaveTheirArrays) {
   const std::string mixed = textOf(encodeVtu(particles, 0.25));
   EXPECT_NE(mixed.find("<DataArray type=\"Float32\" Name=\"concentration1\""), std::string::npos);
   expectArrays(mixed, 10);
+  const offline::DiffuseParticles white{.positions = {{0, 1, 2}, {3, 4, 5}},
+                                        .velocities = {{0, 0, 1}, {0, 0, 2}},
+                                        .ages = {0.5F, 1},
+                                        .classes = {WhitewaterClass::Spray, WhitewaterClass::Bubble}};
+  const std::string foam = textOf(encodeWhitewaterVtu(white, 0.25));
+  EXPECT_NE(foam.find("<DataArray type=\"UInt8\" Name=\"class\""), std::string::npos);
+  expectArrays(foam, 8);
   const std::pair<double, std::string> files[] = {{0, "frame_00000.vtu"}, {0.5, "frame_00001.vtu"}};
   EXPECT_NE(encodePvd(files).find("<DataSet timestep=\"0.5\" part=\"0\" file=\"frame_00001.vtu\"/>"), std::string::npos);
 }

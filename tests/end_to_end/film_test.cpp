@@ -125,10 +125,10 @@ TEST(FilmPicture, MovingBallBlursOverItsPath) {
   const auto particles = blurred.particles();
   auto player = Player::open(ball, {.film = {.shutter_s = open}});
   ASSERT_TRUE(particles && player);
-  ASSERT_TRUE(player->show(particles->positions, {0, 0, 0}, particles->velocities));
+  ASSERT_TRUE(player->show({.positions = particles->positions, .velocities = particles->velocities}));
   const Light played = lightOf(*player, 256, 128);
   EXPECT_NEAR(spread(played, background), spread(after, background), 0.02 * spread(after, background));
-  ASSERT_TRUE(player->show(particles->positions, {0, 0, 0}));
+  ASSERT_TRUE(player->show({.positions = particles->positions}));
   EXPECT_NEAR(spread(lightOf(*player, 256, 128), background), spread(before, background), 0.02 * spread(before, background))
       << "without velocities it rests";
 }

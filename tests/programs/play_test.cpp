@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "rill/offline.hpp"
+#include "shared/ply.hpp"
 #include "support/child_process.hpp"
 #include "support/picture.hpp"
 #include "support/temporary_folder.hpp"
@@ -45,12 +46,74 @@ TEST(Play, AcceptsPositionsOnly) {
         "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty double z\nend_header\n0.5 0.2 0.2\n0.6 "
         "0.3 0.2\n");
   write(folder / "in/b.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
-  write(folder / "in/b.whitewater.ply", "not read");
+  write(folder / "in/b.whitewater.ply", "not read, since the scene has no look.whitewater");
   const Outcome drawn = capture({scene, "--play", (folder / "in").string(), "--size", "64x36", "--out", (folder / "out").string()});
   EXPECT_EQ(drawn.code, 0) << drawn.err;
-  EXPECT_NE(drawn.err.find("warning: --play: whitewater (1 of .whitewater.ply) is not drawn"), std::string::npos) << drawn.err;
+  EXPECT_NE(drawn.err.find("warning: --play: whitewater (1 of .whitewater.ply) is not drawn: look.whitewater is false"), std::string::npos)
+      << drawn.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_00002.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_00001.png"));
+}
+
+constexpr const char* kSplash = R"({
+  "rill": "0.2", "domain": {"min": [0, 0, 0], "max": [1, 1.4, 0.4]}, "fluid": {"spacing": 0.05},
+  "fill": [{"box": {"min": [0, 0, 0], "max": [1, 0.3, 0.4]}}, {"box": {"min": [0.3, 0.6, 0], "max": [0.7, 1, 0.4]}, "velocity": [0, -4, 0]}],
+  "look": {"whitewater": true}, "camera": {"eye": [2.2, 1.4, 2.4], "target": [0.5, 0.5, 0.2], "fov_y_deg": 38}
+})";
+
+TEST(Play, DrawsExportedWhitewater) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kSplash).string();
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{scene, "--fps", "10", "--size", "240x135"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = capture(arguments, folder.string());
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err;
+  };
+  run({"--frames", "4", "--export", "ply", "--export", "vtk", "--out", "run", "--quiet"});
+  EXPECT_EQ(run({"--play", "run", "--out", "played", "--quiet"}), "");
+  const auto emitted = apps::readWhitewaterPly(folder / "run/frame_00003.whitewater.ply");
+  ASSERT_TRUE(emitted) << emitted.error().message;
+  ASSERT_GT(emitted->positions.size(), 100u);
+  EXPECT_TRUE(std::filesystem::exists(folder / "run/whitewater.pvd"));
+  EXPECT_GT(std::filesystem::file_size(folder / "run/frame_00003.whitewater.vtu"), 29 * emitted->positions.size());
+
+  std::filesystem::remove(folder / "run/frame_00003.whitewater.ply");
+  run({"--play", "run", "--out", "without", "--quiet"});
+  const Picture simulated = readPicture(folder / "run/frame_00003.png");
+  const double missing = distance(simulated, readPicture(folder / "without/frame_00003.png")).mean;
+  EXPECT_GT(missing, 0.001);
+  EXPECT_LE(distance(simulated, readPicture(folder / "played/frame_00003.png")).mean, 0.2 * missing);
+
+  std::filesystem::rename(folder / "run/frame_00002.whitewater.ply", folder / "run/other.whitewater.ply");
+  EXPECT_NE(run({"--play", "run", "--out", "without"}).find("has no particles of the fluid beside it"), std::string::npos);
+}
+
+TEST(Play, RefusesBadWhitewater) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", kSplash).string();
+  std::filesystem::create_directories(folder / "in");
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\n", end = "end_header\n";
+  std::string place, motion;
+  for (const char* name : {"x", "y", "z"}) place += std::string("property float ") + name + "\n";
+  for (const char* name : {"vx", "vy", "vz"}) motion += std::string("property float ") + name + "\n";
+  write(folder / "in/a.ply", head + place + end + "0.5 0.5 0.2\n");
+  const auto errorOf = [&](const std::string& text) {
+    write(folder / "in/a.whitewater.ply", text);
+    const Outcome outcome =
+        capture({scene, "--size", "64x36", "--out", (folder / "out").string(), "--quiet", "--play", (folder / "in").string()});
+    EXPECT_EQ(outcome.code, 2);
+    return outcome.err;
+  };
+  const std::string of = head + place + motion + "property uchar class\n";
+  EXPECT_NE(errorOf(head + place + motion + end + "0 0 0 0 0 0\n").find("a.whitewater.ply: has no property \"class\""), std::string::npos);
+  EXPECT_NE(errorOf(of + end + "0 0 0 0 0 0 3\n").find("vertex 0, property \"class\": found 3, expected 0 (spray), 1 (foam) or 2 (bubble)"),
+            std::string::npos);
+  EXPECT_NE(errorOf(of + end + "0 inf 0 0 0 0 1\n").find("vertex 0: the position is"), std::string::npos);
+  EXPECT_NE(errorOf(of + "property float age\n" + end + "0 0 0 0 0 0 1 nan\n").find("property \"age\""), std::string::npos);
+  EXPECT_NE(errorOf(of + end + "0 0 0 0 0 0").find("a.whitewater.ply"), std::string::npos) << "cut off";
+  EXPECT_NE(errorOf("").find("a.whitewater.ply"), std::string::npos) << "empty";
 }
 
 TEST(Play, BlursByTheVelocitiesOfTheFiles) {
@@ -145,6 +208,7 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   Scene scene;
   scene.fluid.spacing = 0.1;
   scene.camera = Camera{{0, 0, 4}, {0, 0, 0}, 40};
+  scene.look.whitewater = true;
   offline::Options options;
   options.validation = true;
   auto player = offline::Player::open(scene, options);
@@ -152,18 +216,24 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   std::vector<Float3> positions;
   for (int i = 0; i < 1000; ++i) positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10 % 10), 0.1f * float(i / 100)});
   const Double3 origin = {-0.5, -0.5, -0.5};
+  offline::DiffuseParticles white{.positions = positions,
+                                  .velocities = std::vector<Float3>(positions.size(), {0, 1, 0}),
+                                  .ages = std::vector<float>(positions.size(), 1),
+                                  .classes = std::vector<WhitewaterClass>(positions.size(), WhitewaterClass::Foam)};
   for (int round = 0; round < 2; ++round) {
     for (const std::string_view view : offline::Simulation::views()) {
       const auto image = player->render(std::string(view), 160, 90);
       ASSERT_TRUE(image) << image.error().message;
       EXPECT_EQ(image->rgba.size(), 160u * 90 * 4);
     }
-    ASSERT_TRUE(player->show(positions, origin));
+    ASSERT_TRUE(player->show({.positions = positions, .origin = origin, .whitewater = white}));
   }
-  EXPECT_FALSE(player->show(positions, origin, {{0, 0, 0}}));
-  EXPECT_FALSE(player->show(positions, origin, {}, 0, {0}));
-  EXPECT_TRUE(player->show(positions, origin, {}, 0, std::vector<uint8_t>(positions.size(), 0)));
-  EXPECT_FALSE(player->show(positions, origin, {}, 0, std::vector<uint8_t>(positions.size(), 1))) << "the scene has one fluid";
+  EXPECT_FALSE(player->show({.positions = positions, .velocities = {{0, 0, 0}}}));
+  EXPECT_FALSE(player->show({.positions = positions, .fluids = {0}}));
+  EXPECT_TRUE(player->show({.positions = positions, .fluids = std::vector<uint8_t>(positions.size(), 0)}));
+  EXPECT_FALSE(player->show({.positions = positions, .fluids = std::vector<uint8_t>(positions.size(), 1)})) << "the scene has one fluid";
+  white.classes.pop_back();
+  EXPECT_FALSE(player->show({.positions = positions, .whitewater = white}));
   for (const std::string& text : player->takeValidationMessages()) ADD_FAILURE() << text;
 }
 

@@ -257,6 +257,17 @@ class Simulation {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What Player draws: particles at one time. Vectors but `positions` may be empty, else they are as long.
+struct PlayedFrame {
+  std::vector<Float3> positions = {};               ///< m, relative to `origin`
+  Double3 origin = {0, 0, 0};                       ///< m, scene coordinates
+  std::vector<Float3> velocities = {};              ///< m/s, for the color of some views and for motion blur
+  std::vector<uint8_t> fluids = {};                 ///< indices among resolvedFluids(); empty: all 0
+  std::vector<Float4> concentrations = {};          ///< as FluidState::concentration; empty: nothing has mixed
+  std::optional<DiffuseParticles> whitewater = {};  ///< drawn with Look::whitewater; none: drops and thin sheets are white
+  double time_s = 0;                                ///< of moving solids
+};
+
 /// Renders given particles with a scene's camera, solids and look. Not thread-safe. Moves as Simulation.
 class Player {
  public:
@@ -267,12 +278,8 @@ class Player {
   Player(Player&&) noexcept;
   Player& operator=(Player&&) noexcept;
 
-  /// Sets the particles to draw. `positions`: m, relative to `origin`. `velocities`: m/s, for the color of some views; may be empty.
-  /// `time_s`: time of moving solids, s. `fluids`: indices among resolvedFluids(); may be empty: all 0. `concentrations`: as
-  /// FluidState::concentration; may be empty: nothing has mixed. BadInput if the numbers of positions and velocities, fluids or
-  /// concentrations differ, or the scene lacks one of the fluids; TooLarge, OutOfMemory.
-  Expected<void> show(const std::vector<Float3>& positions, const Double3& origin, const std::vector<Float3>& velocities = {},
-                      double time_s = 0, const std::vector<uint8_t>& fluids = {}, const std::vector<Float4>& concentrations = {});
+  /// Sets what to draw. BadInput if numbers differ or the scene lacks one of the fluids; TooLarge, OutOfMemory.
+  Expected<void> show(const PlayedFrame& frame);
   /// As Simulation::render(). Without fluid before the first show().
   Expected<Image> render(const std::string& view, uint32_t width, uint32_t height);
   Expected<LinearImage> renderLinear(uint32_t width, uint32_t height);                     ///< as Simulation::renderLinear()
