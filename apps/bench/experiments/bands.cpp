@@ -117,7 +117,9 @@ constexpr Band kBands[] = {
     {"lake", "time over that awake", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "", ""},
     // Measured at two levels; the last is checked once it is.
     {"hydraulic-jump", "Froude number", kNoAim, {0.08, 0.08, kNotChecked}, "%", ""},
-    {"hydraulic-jump", "depth ratio", 0.05, {0.09, 0.12, kNotChecked}, "%", "the deep side sways, and its speed is not uniform"},
+    {"hydraulic-jump", "depth ratio", 0.05, {0.07, 0.06, kNotChecked}, "%", ""},
+    {"hydraulic-jump", "depth ratio, by momentum", kNoAim, {0.05, 0.04, kNotChecked}, "%", ""},
+    {"hydraulic-jump", "momentum over that of uniform speed", kNoAim, {1.1, 1.1, kNotChecked}, "", ""},
     {"layers-1000", "pressure, in the light layer", 0.01, {0.16, 0.1, 0.09}, "%", kLightLayer},
     {"layers-1000", "level", 0.001, {0.035, 0.022, 0.016}, "%", kLightLayer},
     {"layers", "pressure, in the heavy layer", 0.01, {0.03, 0.03, 0.03}, "%", kLayerPressure},

@@ -19,9 +19,12 @@ SlabMeans slabMeans(const Cloud& cloud, double min_x_m, double max_x_m, double f
     if (x.x < min_x_m || x.x > max_x_m || x.y < floor_m) continue;
     ++means.particles;
     means.height_m += x.y - floor_m;
-    for (size_t axis = 0; axis < 3; ++axis) means.velocity_m_s[axis] += cloud.velocity[i][axis];
+    const Double3& u = cloud.velocity[i];
+    for (size_t axis = 0; axis < 3; ++axis) means.velocity_m_s[axis] += u[axis];
+    means.momentum_m2_s2 += u.x * u.x - u.y * u.y;
   }
   means.height_m /= means.particles;
+  means.momentum_m2_s2 /= means.particles;
   for (size_t axis = 0; axis < 3; ++axis) means.velocity_m_s[axis] /= means.particles;
   return means;
 }

@@ -15,6 +15,9 @@ struct SlabMeans {
   double particles = 0;
   double height_m = 0;     ///< of the centers, over the floor
   Double3 velocity_m_s{};  ///< NaN without particles, as is the height
+  /// Of u^2 - v^2, u along x and v along y: over the square of the mean u it is the flow's momentum over that of uniform speed, less
+  /// what vertical motion takes from the pressure.
+  double momentum_m2_s2 = 0;
   /// Depth of a column of uniform density: twice the height of its center of mass. Unlike a level it needs no half spacing on top.
   double depth() const { return 2 * height_m; }
 };

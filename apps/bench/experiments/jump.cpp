@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kJumpDepth = 0.1, kJumpFroude = 3;       // m; of the inflow
 constexpr double kJumpFrom = 1.8, kJumpTo = 3.6;          // m along x, at the start
-constexpr double kJumpEnd = 6, kJumpTop = 0.7;            // m, of the domain
+constexpr double kJumpEnd = 7.5, kJumpTop = 0.7;          // m, of the domain
 constexpr double kJumpTailwater = 0.93;                   // share of the depth by Bélanger at which the weir would leave the flow
 constexpr double kJumpUpstream[2] = {0.4, 1.6};           // m along x
-constexpr double kJumpDownstream[2] = {4, 5.2};           // m along x: before the fall of the surface to the weir
+constexpr double kJumpDownstream[2] = {5.5, 6.5};         // m along x: where the speed is uniform, before the surface falls to the weir
 constexpr double kJumpSampledFrom = 2.5, kJumpUntil = 5;  // s
 constexpr double kJumpSpacing[kLevels] = {kJumpDepth / 5, kJumpDepth / 8, kJumpDepth / 12};
 
@@ -52,10 +52,30 @@ Scene jumpScene(double spacing) {
   return scene;
 }
 
+/// Means over time of one side of the jump.
+struct Side {
+  TimeMean depth, speed, momentum;
+
+  void add(const SlabMeans& means) {
+    depth.add(means.depth());
+    speed.add(means.velocity_m_s.x);
+    momentum.add(means.momentum_m2_s2);
+  }
+  /// Momentum of the flow as seen by an observer who moves against it, m^2/s^2.
+  double momentumIn(double observer_m_s) const { return momentum.value() + observer_m_s * (2 * speed.value() + observer_m_s); }
+};
+
+/// Depth over that of the other side at which pressure and flow, whose momentum (m^2/s^2) is given, balance those of the other side.
+/// Bélanger's equation, where speeds are uniform and flows equal.
+double balancedRatio(double depth_m, double momentum, double momentumBeyond) {
+  const double froude2 = momentum / (9.81 * depth_m), beyond = momentumBeyond / (9.81 * depth_m);
+  return std::sqrt(beyond * beyond + 1 + 2 * froude2) - beyond;
+}
+
 // The jump may move: with the speed at which it takes up the difference of the flows, it is at rest in its own frame, and Bélanger's
 // equation holds for the Froude number there.
 Expected<Outcome> hydraulicJump(const Bench& bench, double spacing) {
-  TimeMean shallow, deep, fast, slow;
+  Side inflow, tail;
   std::vector<std::pair<double, double>> ratios, upstream, fronts;
   auto run = runSampled(
       bench, jumpScene(spacing), kJumpUntil, 1.0 / 60, [](double) { return true; },
@@ -69,19 +89,21 @@ Expected<Outcome> hydraulicJump(const Bench& bench, double spacing) {
           if (x.y > 2 * kJumpDepth) front = std::min(front, x.x);
         fronts.emplace_back(time, front);
         if (time < kJumpSampledFrom) return;
-        shallow.add(before.depth());
-        deep.add(after.depth());
-        fast.add(before.velocity_m_s.x);
-        slow.add(after.velocity_m_s.x);
+        inflow.add(before);
+        tail.add(after);
       });
   if (!run) return run.error();
-  const double low = shallow.value(), high = deep.value();
-  const double towardsInflow = (fast.value() * low - slow.value() * high) / (high - low);
-  const double froude = froudeOf(fast.value() + towardsInflow, low);
+  const double low = inflow.depth.value(), high = tail.depth.value();
+  const double towardsInflow = (inflow.speed.value() * low - tail.speed.value() * high) / (high - low);
+  const double froude = froudeOf(inflow.speed.value() + towardsInflow, low);
+  const double tailMomentum = tail.momentumIn(towardsInflow), tailSpeed = tail.speed.value() + towardsInflow;
   Outcome outcome;
   outcome.run = std::move(*run);
   outcome.figures.push_back(relativeFigure("Froude number", froude, kJumpFroude));
   outcome.figures.push_back(relativeFigure("depth ratio", high / low, belanger(froude)));
+  outcome.figures.push_back(
+      relativeFigure("depth ratio, by momentum", high / low, balancedRatio(low, inflow.momentumIn(towardsInflow), tailMomentum)));
+  outcome.figures.push_back(plainFigure("momentum over that of uniform speed", tailMomentum / (tailSpeed * tailSpeed)));
   outcome.curves["depth_ratio"] = curveJson(ratios);
   outcome.curves["upstream_depth_m"] = curveJson(upstream);
   outcome.curves["front_m"] = curveJson(fronts);
