@@ -51,6 +51,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"REMOVES", setup.removes},
           {"OUTFLOW", setup.params.outflowLevel < kNoWall},
           {"MOUTHS", !setup.emitters.empty()},
+          {"MOUTHS_MOVE", std::ranges::any_of(setup.emitters, [](const EmitterRecord& e) { return e.keyCount > 0; })},
           {"FORCES", hasForces(setup)},
           {"TENSION", p.tensionRate > 0},
           {"REGIONS", p.regionsX != 0},

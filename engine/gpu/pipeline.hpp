@@ -14,7 +14,7 @@
 
 namespace rill {
 
-inline constexpr size_t kMaxConstants = 32;  ///< of a pipeline
+inline constexpr size_t kMaxConstants = 64;  ///< of a pipeline
 
 /// Pipelines with equal kinds share a layout, so that a frame's kernels can share descriptor sets.
 struct SetLayout {

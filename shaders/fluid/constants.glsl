@@ -32,5 +32,6 @@ layout(constant_id = 28) const bool SHEAR_VISCOSITY = false;  // shear changes t
 layout(constant_id = 29) const bool TENSION = false;   // the surface has tension: lists have a segment of far neighbors
 layout(constant_id = 30) const uint NEAR_QUADS = 1;    // size of an entry of nearSolids, in units of four words
 layout(constant_id = 31) const bool MOUTHS = false;    // there are emitters
+layout(constant_id = 32) const bool MOUTHS_MOVE = false;  // keyframes move some of their mouths
 #define LIST_OVERSIZED_ID 13
 #endif

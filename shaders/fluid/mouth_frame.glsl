@@ -1,6 +1,7 @@
 // The frame of an emitter's mouth at a time, and how it moves. Needs `emitters` and `keyframes`.
 #ifndef RILL_MOUTH_FRAME_GLSL
 #define RILL_MOUTH_FRAME_GLSL
+#include "fluid/constants.glsl"
 #include "shared/keyframes.glsl"
 
 struct MouthFrame {
@@ -14,7 +15,7 @@ MouthFrame mouthFrame(uint e, float time) {
   vec3 across = vec3(emitters[e].acrossX, emitters[e].acrossY, emitters[e].acrossZ);
   vec3 up = vec3(emitters[e].upX, emitters[e].upY, emitters[e].upZ);
   PoseRecord rest = poseOf(center, vec4(0.0, 0.0, 0.0, 1.0), vec3(0.0), vec3(0.0));
-  if (emitters[e].keyCount == 0u) return MouthFrame(rest, normal, across, up);
+  if (!MOUTHS_MOVE || emitters[e].keyCount == 0u) return MouthFrame(rest, normal, across, up);
   vec3 arm = vec3(emitters[e].armX, emitters[e].armY, emitters[e].armZ);
   PoseRecord pivot = poseOf(center - arm, vec4(0.0, 0.0, 0.0, 1.0), vec3(0.0), vec3(0.0));
   PoseRecord pose = keyframedPose(pivot, emitters[e].firstKey, emitters[e].keyCount, time);

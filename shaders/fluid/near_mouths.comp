@@ -2,10 +2,11 @@
 // Lists the particles that an emitter's mouth may act on before the next list build.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
+#include "shared/arrays.glsl"
 #include "shared/flow_records.h"
 #include "shared/neighbor_list.h"
 layout(local_size_x = kFluidGroup) in;
-layout(std430, binding = 2) readonly buffer PositionBlock { vec4 position[]; };
+READ_FLOAT4(2, position)
 layout(std430, binding = 3) readonly buffer EmitterBlock { EmitterRecord emitters[]; };
 layout(std430, binding = 4) readonly buffer KeyframeBlock { KeyframeRecord keyframes[]; };
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
@@ -27,9 +28,10 @@ bool isNear(uint e, vec3 x) {
 void main() {
   uint i = flatInvocation();
   if (i >= control.count) return;
-  vec3 x = position[i].xyz;
-  bool near = false;
-  for (uint e = 0u; e < params.emitterCount && isActive(x) && !near; ++e) near = isNear(e, x);
+  vec3 x = positionAt(i).xyz;
+  // Mouths keep regions awake that they reach.
+  bool listed = isActive(x) && !(REGIONS && (listHead[i] & kAsleepBit) != 0u), near = false;
+  for (uint e = 0u; e < params.emitterCount && listed && !near; ++e) near = isNear(e, x);
   if (!near) return;
   nearMouths[atomicAdd(sums.nearMouths, 1u)] = i;
   listHead[i] |= kNearMouthsBit;
