@@ -33,12 +33,12 @@ inline EnvironmentPicture picture(uint32_t width, const std::function<Rgb(uint32
 inline double dotOf(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 inline Double3 directionOf(double x, double y, uint32_t width) {
-  const double polar = y / (width / 2) * std::numbers::pi, turn = (x / width - 0.5) * 2 * std::numbers::pi;
+  const double polar = 2 * y / width * std::numbers::pi, turn = (x / width - 0.5) * 2 * std::numbers::pi;
   return {std::sin(polar) * std::sin(turn), std::cos(polar), -std::sin(polar) * std::cos(turn)};
 }
 
 inline double solidAngle(uint32_t y, uint32_t width) {
-  const double step = std::numbers::pi / (width / 2);
+  const double step = 2 * std::numbers::pi / width;
   return 2 * std::numbers::pi / width * (std::cos(y * step) - std::cos((y + 1) * step));
 }
 

@@ -57,27 +57,5 @@ TEST(EnvironmentSunTest, OtherPicturesHaveNone) {
   EXPECT_FALSE(findSun({4, 2, {1, 2, 3}}));
 }
 
-TEST(SkyPicture, DayAndSunsetAreExposedAndHaveTheirSun) {
-  EXPECT_FALSE(skyPicture("studio"));
-  EXPECT_FALSE(skyPicture("dya"));
-  for (const auto& [name, to] : {std::pair{"day", Double3{-0.36, 1.0, 0.52}}, std::pair{"sunset", Double3{-0.75, 0.16, -0.66}}}) {
-    const auto sky = skyPicture(name);
-    ASSERT_TRUE(sky);
-    const auto sun = findSun(*sky);
-    ASSERT_TRUE(sun) << name;
-    const Double3 found = {sun->direction.x, sun->direction.y, sun->direction.z};
-    EXPECT_LT(std::acos(std::min(dotOf(found, to) / std::sqrt(dotOf(to, to)), 1.0)), std::numbers::pi / sky->height) << name;
-    const Rgb up = irradianceOf(*sky, {0, 1, 0});
-    EXPECT_NEAR(0.2126 * up[0] + 0.7152 * up[1] + 0.0722 * up[2], std::numbers::pi, 0.01 * std::numbers::pi) << name;
-    EXPECT_GT(unpacked(sky->texels[0])[2], unpacked(sky->texels[0])[0]) << "the zenith is blue";
-  }
-  const auto day = findSun(*skyPicture("day")), evening = findSun(*skyPicture("sunset"));
-  EXPECT_LT(evening->light.z / evening->light.x, 0.6f * day->light.z / day->light.x) << "a low sun is red";
-  // By day a surface that lies flat has three to nine times as much light from the sun as from the sky.
-  const double fromSun = day->light.y * day->direction.y;
-  EXPECT_GT(fromSun, 0.75);
-  EXPECT_LT(fromSun, 0.9);
-}
-
 }  // namespace environment_test
 }  // namespace rill::test
