@@ -35,6 +35,13 @@ vec3 backdrop(vec3 sight) {
   return sky + min(sunlight() / (radius * radius), 3e4) * clamp((radius - apart) / rim + 0.5, 0.0, 1.0);
 }
 vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
+#ifndef SKY
+// Of a ground that the light of the upper half makes as bright as the lower half is.
+vec3 groundAlbedo(bool tank) {
+  const vec3 light = skyLight(vec3(0.0, 1.0, 0.0)) + sunlight() * max(look.light.y, 0.0);
+  return clamp(skyLight(vec3(0.0, -1.0, 0.0)) / max(light, vec3(1e-6)), vec3(0.08), vec3(0.9));
+}
+#endif
 #else
 #ifdef SKY
 float backdropShare() { return 1.0; }
@@ -46,10 +53,10 @@ vec3 backdrop(vec3 sight) {
   return backdropShare() * mix(vec3(0.06, 0.08, 0.11), vec3(0.010, 0.016, 0.030), sqrt(clamp(sight.y, 0.0, 1.0)));
 }
 vec3 haze(vec3 sight) { return backdrop(normalize(vec3(sight.x, 0.02, sight.z))); }
+vec3 groundAlbedo(bool tank) { return tank ? vec3(0.075, 0.078, 0.085) : vec3(0.115, 0.13, 0.15); }
 #endif
 
-const vec3 kTankFloor = vec3(0.66, 0.65, 0.62);
-const vec3 kTable = vec3(0.075, 0.078, 0.085);  // albedo
+const vec3 kTankFloor = vec3(0.66, 0.65, 0.62);  // albedo
 
 void main() {
   const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);
@@ -72,7 +79,7 @@ void main() {
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
   const bool inside = all(equal(beyond, vec2(0.0))), tank = step <= 0.0;
-  vec3 albedo = tank ? (inside ? kTankFloor : kTable) : vec3(0.115, 0.13, 0.15);
+  vec3 albedo = tank && inside ? kTankFloor : groundAlbedo(tank);
   if (inside && !tank) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
   const vec3 direct = reaching(sunlight() * max(sun.y, 0.0), p, bias, 0.5 * (width.x + width.y), false);

@@ -41,6 +41,22 @@ TEST(SceneEnvironment, FillsBackground) {
   EXPECT_GT(distance(red, plain).mean, 0.1);
 }
 
+TEST(SceneEnvironment, GroundLooksAsThatOfTheMap) {
+  const TemporaryFolder folder;
+  folder.write("scene.json", kScene);
+  std::filesystem::create_directory(folder / "skies");
+  folder.write("skies/sky.hdr", radiance({'\x80', '\x40', '\x20', '\x80'}));  // orange all around
+  for (const char* stage : {"grid", "tank"}) {
+    const Outcome outcome = capture({"scene.json", "--frames", "1", "--size", "96x54", "--out", stage, "--set", "rill=0.2",
+                                     "domain.open=[]", std::string("look.stage=") + stage},
+                                    folder.string());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Picture picture = readPicture(folder / (std::string(stage) + "/frame_00000.png"));
+    const size_t ground = 3u * 96 * 53;  // lower left, the sky is upper left
+    for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(picture.rgb[ground + c], picture.rgb[c], 4) << stage;
+  }
+}
+
 TEST(SceneSky, IsDrawnUnlessThereIsAnEnvironment) {
   const TemporaryFolder folder;
   folder.write("scene.json", kScene);
