@@ -113,6 +113,8 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {SortedVelocity, "sortedVelocity", "sorted velocities", Section, kVector, perParticle, Account::Particles},
       {FreeVelocity, "freeVelocity", "free velocities", Section, kVector, perParticleIfSolids, Account::Particles},
       {NearMultipliers, "nearMultipliers", "multipliers near solids", Section, 8, perParticleIf<&ArrayShape::loads>, Account::Particles},
+      {NearSampled, "nearSampled", "solids that displace density near particles", Section, kWord, perParticleIf<&ArrayShape::loads>,
+       Account::Particles},
       {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
        Account::Particles},
       {Hold, "hold", "hold of solids", Fluid, kVector, perParticleIf<&ArrayShape::noSlipSolids>, Account::Particles},

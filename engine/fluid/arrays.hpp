@@ -70,6 +70,7 @@ enum class FluidArray : uint8_t {
   SortedVelocity,
   FreeVelocity,
   NearMultipliers,
+  NearSampled,
   Smoothed,
   Hold,
   PriorVelocity,

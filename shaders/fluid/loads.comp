@@ -24,6 +24,7 @@ READ_UINT4(6, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
 READ_UINT2(7, nearMultipliers)  // two floats
 layout(std430, binding = 8) buffer SolidSumsBlock { uint solidSums[]; };
+READ_UINT(10, nearSampled)  // of solids.comp, at the same places
 #include "fluid/solid_density.glsl"
 #include "fluid/solid_reaction.glsl"
 
@@ -57,22 +58,15 @@ void addSolid(inout Reaction r, SolidRecord s, vec3 x, vec2 multipliers) {
   } LOOP_END(more);
 }
 
+// By all lanes; `mine`: the lane has something for solid k, which is the same for these lanes.
 void addToSums(uint k, Reaction r, bool mine) {
-  bool some = false;
-  for (uint c = 0u; c < 2u * kLoadComponents; ++c) some = some || r.units[c] != 0.0;
-  mine = mine && some;
-  if (!subgroupAny(mine)) return;
-  uint lowest = subgroupMin(mine ? k : 0xffffffffu), highest = subgroupMax(mine ? k : 0u);
-  bool together = lowest == highest;  // the lanes that have a solid have the same one
   for (uint c = 0u; c < 2u * kLoadComponents; ++c) {
     int high;
     uint low;
     split(mine ? r.units[c] : 0.0, high, low);
-    if (together) {
-      high = subgroupAdd(high);
-      low = subgroupAdd(low);
-    }
-    if (together ? subgroupElect() : mine) addWide((together ? lowest : k) * kSolidSumWords + 2u * c, high, low);
+    high = subgroupAdd(high);
+    low = subgroupAdd(low);
+    if (subgroupElect()) addWide(k * kSolidSumWords + 2u * c, high, low);
   }
 }
 
@@ -86,14 +80,21 @@ void main() {
   vec2 multipliers = uintBitsToFloat(nearMultipliersAt(i));
   if (control.phase != kPhaseAdvancing) multipliers.x = 0.0;
 
+  near.mask = nearSampledAt(inRange ? n : 0u);
+
+  // By solids that any lane has, not by each lane's own next one: then a solid's sums take one addition a subgroup.
   uint m = 0u, k = 0u;
   bool more = inRange && isActive(x) && nextSolid(near, m, k);
   LOOP_WHILE (subgroupAny(more)) {
+    uint least = subgroupMin(more ? k : kNoSolid);
+    bool mine = more && k == least;
     Reaction r;
     for (uint c = 0u; c < 2u * kLoadComponents; ++c) r.units[c] = 0.0;
-    if (more) addSolid(r, solidAt(k), x, multipliers);
-    addToSums(k, r, more);
-    ++m;
-    more = more && nextSolid(near, m, k);
+    if (mine) addSolid(r, solidAt(least), x, multipliers);
+    addToSums(least, r, mine);
+    if (mine) {
+      ++m;
+      more = nextSolid(near, m, k);
+    }
   } LOOP_END(subgroupAny(more));
 }

@@ -29,6 +29,7 @@ READ_UINT4(10, bodies)  // BodyRecord
 #include "fluid/body_array.glsl"
 layout(std430, binding = 11) writeonly buffer StiffnessBlock { float nearStiffness[]; };
 layout(std430, binding = 12) buffer SolidSumsBlock { uint solidSums[]; };
+layout(std430, binding = 13) writeonly buffer SampledBlock { uint nearSampled[]; };  // of each entry, see NearSolids::mask
 #include "fluid/bodies.glsl"
 #include "fluid/solid_sums.glsl"
 
@@ -54,6 +55,7 @@ void main() {
   SolidCoverage coverage = SolidCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = vec4(0.0);
   float stiffness = 0.0;
+  uint sampled = near.all ? 0xffffffffu : 0u;
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
@@ -62,6 +64,7 @@ void main() {
       SolidRecord s = solidAt(k);
       vec4 solid = solidSample(s, image);
       if (solid == vec4(0.0)) continue;
+      if (!near.all) sampled |= 1u << m;
       solid *= shareOfImage(s, image);
       if (BODIES) stiffness += stiffnessOf(k, s.body, solid.xyz, image);
       solid.xyz *= signs;
@@ -73,4 +76,5 @@ void main() {
   nearDisplaced[i] = displaced;
   nearTangential[i] = packSolidScale(coverage);
   if (BODIES) nearStiffness[i] = stiffness;
+  if (LOADS) nearSampled[n] = sampled;
 }
