@@ -120,10 +120,13 @@ enum class Extent : uint8_t {
   Chunks,      ///< all particles, a dispatch for each buffer of the neighbor list
   Gather,      ///< the same over neighbors, in two variants: the device starts the one that reads lists or the one that can walk the grid
   NearSolids,  ///< particles near solids
+  InReach,     ///< particles in reach of solids
   NearMouths,  ///< particles near mouths of emitters
   Regions,     ///< regions that fall asleep on their own
   Bodies,      ///< rigid bodies
   ContactPoints,   ///< their sample points
+  Contacts,        ///< those of their sample points that may touch something
+  ContactBodies,   ///< rigid bodies, if one of these points may
   PressureProbes,  ///< a workgroup each
   Births,          ///< particles that emitters may add at a rebuild
   NearGather       ///< the same over their neighbors, a dispatch for each buffer of the list, in the variant that can walk the grid

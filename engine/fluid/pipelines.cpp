@@ -65,7 +65,6 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           // Where a pass or a variant of it does not say otherwise:
           {"WALKS", false},
           {"NEAR_SOLIDS", false},
-          {"COUNTS", false},
           {"REBUILDS", false}};
 }
 
@@ -96,6 +95,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   if (row.extent == Extent::Keys && counted) shader += "_counted";
   const bool controls = runsControl(row.id, setup);
   if (controls) prepared.arguments = FluidArray::DensityCommands;
+  const bool touches = row.extent == Extent::Contacts || row.extent == Extent::ContactBodies;
+  if (touches) prepared.arguments = FluidArray::ContactCommands;
   shader = shaderVariant(device, shader, "_merged", setup.mergesPasses);
   shader = shaderVariant(device, shader, "_texel", texel_);
   const ClusterChoice choice = clusterOf(device);
@@ -120,7 +121,12 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       const GroupCount groups = over == kOverShape ? foldGroups(fixedGroups(row.extent)) : GroupCount{kFluidGroup, 0, 1};
       const auto share = [&](Start when) {
         const auto k = static_cast<uint32_t>(when);
-        commands[k] = controls ? uint32_t{over == kOverGrid} : commands_.shared(k, over, groups);
+        if (controls)
+          commands[k] = over == kOverGrid ? 1 : 0;
+        else if (touches)
+          commands[k] = row.extent == Extent::ContactBodies ? 1 : 0;
+        else
+          commands[k] = commands_.shared(k, over, groups);
       };
       share(start);
       if (start == Start::Correct) share(Start::CorrectOdd);
@@ -136,6 +142,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       return add(kOverNearSolids, {{"WALKS", true}}, choice.need);
     case Extent::NearSolids:
       return add(kOverNearSolids, {{"NEAR_SOLIDS", true}});
+    case Extent::InReach:
+      return add(kOverInReach, {{"NEAR_SOLIDS", true}});
     case Extent::NearMouths:
       return add(kOverNearMouths, {});
     case Extent::Chunks:

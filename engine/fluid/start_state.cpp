@@ -60,6 +60,7 @@ void FluidImpl::stageScene() {
   staging_->clear(slotOf(FluidArray::Commands));
   if (setup.params.tensionRate > 0) staging_->clear(slotOf(FluidArray::SurfaceParticle));
   staging_->clear(slotOf(FluidArray::DensityCommands));
+  staging_->clear(slotOf(FluidArray::ContactCommands));
 }
 
 void FluidImpl::stageFlows() {

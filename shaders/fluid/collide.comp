@@ -15,6 +15,7 @@ layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcc
 layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
 #include "shared/arrays.glsl"
 READ_UINT4(6, nearSolids)
+READ_UINT2(16, inReach)
 READ_UINT4(8, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
 READ_UINT(13, meshWord)
@@ -51,25 +52,8 @@ void pushedBy(uint k, SolidRecord s, vec3 x, vec3 normal, vec3 by) {
 }
 #define PUSHED(k, solid, x, normal, by) pushedBy(k, solid, x, normal, by)
 
-// Of many solids near a particle few are within its reach in a substep. CPU drivers execute all of a loop's body in each iteration, so a
-// short loop finds those first.
-vec3 start;
-uint reachable = NEAR_QUADS > 1u ? 0u : 0xffffffffu;  // bits of the first 32
-void findReachable(NearSolids near, vec3 x) {
-  start = x;
-  float reach = 1.1 * params.margin + 2.0 * params.spacing + control.solidSpeed * max(ahead(), control.step);
-  for (uint m = 0u, k; NEAR_QUADS > 1u && !near.all && nextSolid(near, m, k); ++m)
-    if (!isBeyond(centerOf(solidAt(k).pose), solidAt(k).radius, x, reach)) reachable |= 1u << m;
-}
-
-// Without those that a particle at x cannot reach: up to a spacing from the start those that were found are left.
-NearSolids withinReach(NearSolids near, vec3 x) {
-  vec3 apart = x - start;
-  near.mask = dot(apart, apart) < params.spacing * params.spacing ? reachable : 0xffffffffu;
-  return near;
-}
-#define MOVED(near, x) near = withinReach(near, x)
 #include "fluid/outside.glsl"
+#include "fluid/solid_reach.glsl"
 layout(std430, binding = 9) readonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 10) readonly buffer WorkBlock { uvec4 work[]; };
 layout(std430, binding = 11) readonly buffer WarmBlock { float warm[]; };
@@ -98,14 +82,16 @@ void predict(uint i, NearSolids near, vec3 x, vec3 v, uint fluid) {
   if (FORCES) return;  // predict.comp, after them
   float pushed;
   vec3 planned = predicted(x, v, keptWarmAcceleration(warmAcceleration[i]));
-  vec3 next = outside(planned, withinReach(near, planned), ahead(), pushed);
+  vec3 next = outside(planned, near, ahead(), pushed);
   prediction[i] = vec4(next, withFluid(pushed, fluid));
 }
 
 void main() {
   uint n = flatInvocation();
-  if (n >= sums.nearSolids) return;
-  NearSolids near = nearSolidsOf(n);
+  if (n >= sums.reached) return;
+  uvec2 entry = inReachAt(n);
+  NearSolids near = nearSolidsOf(entry.x);
+  near.mask = entry.y;
   uint i = near.particle;
   vec3 from = position[i].xyz;
   if (!isActive(from)) return;
@@ -113,8 +99,7 @@ void main() {
   ownInverseMass = inverseMassOf(fluid);
   float pushed;
   countsPushes = control.phase == kPhaseAdvancing;
-  findReachable(near, from);
-  vec3 x = outside(from, withinReach(near, from), 0.0, pushed);
+  vec3 x = outside(from, near, 0.0, pushed);
   countsPushes = false;
   if (control.phase != kPhaseAdvancing) {
     position[i] = vec4(x, storedFluid(fluid));
@@ -133,16 +118,15 @@ void main() {
   vec3 given = ownInverseMass * multiplier * nearDisplaced[i].xyz / control.step + gained;
   if (LOADS && freeVelocity[i].w > 0.0) {
     vec3 center, direction, at = uintBitsToFloat(work[i].xyz);
-    uint pushing = nearestSolid(withinReach(near, at), at, center, direction);
+    uint pushing = nearestSolid(near, at, center, direction);
     if (pushing != kNoSolid) addToSolid(pushing, center, freeVelocity[i].w / ownInverseMass * direction, at);
   }
-  NearSolids touched = withinReach(near, x);
-  for (uint m = 0u, k; nextSolid(touched, m, k); ++m) {
+  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
     SolidRecord s = solidAt(k);
     if (s.friction <= 0.0 && s.restitution <= 0.0) continue;
-    if (isBeyond(centerOf(s.pose), s.radius, x, 1.1 * params.margin + params.spacing)) continue;
+    if (isBeyond(centerOf(s.pose), s.radius, x, contactReach() + params.spacing)) continue;
     vec3 normal;
-    if (surfaceDistance(s.shape, localPoint(s.pose, x), normal) > 1.1 * params.margin) continue;
+    if (surfaceDistance(s.shape, localPoint(s.pose, x), normal) > contactReach()) continue;
     normal = toScene(s.pose, normal);
     vec3 moving = velocityAt(s.pose, x);
     float before = dot(freeVelocity[i].xyz - moving, normal);

@@ -1,6 +1,7 @@
 #version 460
 // Contacts of bodies with walls and other solids, a sample point an invocation: position-based (Mueller et al. 2020), all at once.
-// COUNTS: counts the contacts of each body, which share its mass, so that together they do not correct too much (Tonge et al. 2012).
+// COUNTS: counts the contacts of each body, which share its mass, so that together they do not correct too much (Tonge et al. 2012), and
+// lists the points that may touch something, which the others are over.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"
@@ -16,7 +17,14 @@ layout(std430, binding = 4) readonly buffer TouchedBlock { TouchedRecord touched
 layout(std430, binding = 5) readonly buffer ContactPointBlock { ContactPointRecord contactPoints[]; };
 layout(std430, binding = 6) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 7) buffer SlipBlock { SlipRecord slips[]; };
-layout(std430, binding = 8) buffer ContactCandidateBlock { uint contactCandidates[]; };
+// First, in x, how many; then points, and what they may touch: bits of TouchedRecord::solids, and kMayTouchWalls.
+layout(std430, binding = 8) buffer ContactCandidateBlock { uvec2 contactCandidates[]; };
+#ifdef COUNTS
+layout(std430, binding = 10) buffer ContactCommandBlock { uint contactCommands[]; };
+const bool kCounts = true;
+#else
+const bool kCounts = false;
+#endif
 layout(push_constant) uniform Push { ContactPush push; };
 #include "fluid/bodies.glsl"
 #include "fluid/solid_reaction.glsl"
@@ -106,33 +114,48 @@ void solve(Partner own, Partner other, vec3 at, vec3 normal, float depth) {
 
 void touch(Partner own, Partner other, vec3 at, vec3 normal, float depth) {
   if (own.body == kNoBody && other.body == kNoBody) return;
-  if (COUNTS)
+  if (kCounts)
     count(own, other, normal);
   else
     solve(own, other, at, normal, depth);
 }
 
-// Those that the point at hand may touch: as its body does, then as the count has found.
-uint mayTouch(uint n, uint body) {
-  if (!COUNTS) return contactCandidates[n];
-  return ((1u << touched[body].count) - 1u) | (touched[body].walls != 0u ? kMayTouchWalls : 0u);
+#ifdef COUNTS
+// Of all points.
+bool pointAt(uint k, out uint n, out uint candidates) {
+  n = min(k, params.contactPoints - 1u);
+  uint body = contactPoints[n].body;
+  candidates = ((1u << touched[body].count) - 1u) | (touched[body].walls != 0u ? kMayTouchWalls : 0u);
+  return k < params.contactPoints && bodyStep() > 0.0;
 }
 
+void listPoint(uint n, uint found) {
+  if (found == 0u) return;
+  uint place = atomicAdd(contactCandidates[0].x, 1u);
+  contactCandidates[place + 1u] = uvec2(n, found);
+  atomicMax(contactCommands[0], place / kFluidGroup + 1u);
+  atomicMax(contactCommands[3], divideUp(params.bodyCount, kFluidGroup));
+}
+#else
+bool pointAt(uint k, out uint n, out uint candidates) {
+  uint count = contactCandidates[0].x;
+  uvec2 point = contactCandidates[min(k + 1u, count)];
+  n = point.x;
+  candidates = point.y;
+  return k < count;
+}
+#endif
+
 void main() {
-  uint n = flatInvocation();
-  if (n >= params.contactPoints || bodyStep() <= 0.0) return;
-  uint body = contactPoints[n].body, candidates = mayTouch(n, body), found = 0u;
-  if (COUNTS && candidates == 0u) {
-    slips[n] = counted;
-    contactCandidates[n] = 0u;
-  }
-  if (candidates == 0u) return;
+  uint n, candidates, found = 0u;
+  if (!pointAt(flatInvocation(), n, candidates)) return;
+  uint body = contactPoints[n].body;
   ContactPointRecord point = contactPoints[n];
   slip = slips[n];
   uint own = bodies[body].solid;
   PoseRecord pose = solidAt(own).pose;
   vec3 center = centerOf(pose) + toScene(pose, vec3(point.x, point.y, point.z));
-  float margin = COUNTS ? contactMargin() : 0.0;
+  float margin = kCounts ? contactMargin() : 0.0;
   for (uint side = 0u; side < 6u && (candidates & kMayTouchWalls) != 0u; ++side) {
     uint a = side >> 1;
     bool upper = (side & 1u) != 0u;
@@ -157,6 +180,8 @@ void main() {
     vec3 at = center - point.radius * normal;
     touch(partnerOf(own, at), partnerOf(k, at), at, normal, depth);
   }
-  slips[n] = COUNTS ? counted : slip;
-  if (COUNTS) contactCandidates[n] = found;
+  slips[n] = kCounts ? counted : slip;
+#ifdef COUNTS
+  listPoint(n, found);
+#endif
 }

@@ -171,6 +171,10 @@ void main() {
   if (looks && !moves) storeAcceleration(i);
   float fastest = subgroupMax(speed);
   float motion = subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion));
+  if (SOLIDS && inRange && i == 0u) {  // for collide.comp; the next substep counts anew
+    sums.reached = sums.inReach;
+    sums.inReach = 0u;
+  }
   if (!subgroupElect()) return;
   atomicMax(sums.speedMax, floatBitsToUint(fastest));
   addMotion(round(motion / kMotionUnit));

@@ -10,6 +10,7 @@ layout(std430, binding = 2) buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 3) readonly buffer SolidLoadBlock { SolidLoadRecord solidLoads[]; };
 layout(std430, binding = 4) buffer BodyBlock { BodyRecord bodies[]; };
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 6) writeonly buffer ContactCommandBlock { uint contactCommands[]; };
 #include "fluid/predicted_bodies.glsl"
 
 PoseRecord reacted(BodyRecord b) {
@@ -48,6 +49,7 @@ void endSubstep(uint n, BodyRecord b, PoseRecord s) {
 }
 
 void main() {
+  if (push.ends != 0u && gl_LocalInvocationID.x == 0u) contactCommands[0] = contactCommands[3] = 0u;  // until the next substep
   for (uint n = gl_LocalInvocationID.x; n < params.bodyCount; n += gl_WorkGroupSize.x) {
     BodyRecord b = bodies[n];
     bool moves = b.held == 0u, last = push.ends != 0u;

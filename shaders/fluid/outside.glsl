@@ -6,12 +6,9 @@
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
-// PUSHED(k, solid, x, normal, by), if defined, is called where a solid moves a center from x, MOVED(near, x) with its place after that.
+// PUSHED(k, solid, x, normal, by), if defined, is called where a solid moves a center from x.
 #ifndef PUSHED
 #define PUSHED(k, solid, x, normal, by)
-#endif
-#ifndef MOVED
-#define MOVED(near, x)
 #endif
 
 // Moves a center out of the solids `near` it, where each will be `ahead` seconds from now, walls last.
@@ -30,7 +27,6 @@ vec3 outside(vec3 x, NearSolids near, float ahead, out float pushed) {
       vec3 outward = toScene(pose, normal), by = outward * (params.margin - distance);
       PUSHED(k, s, x, outward, by);
       x += by;
-      MOVED(near, x);
       pushed += params.margin - distance;
     }
   }

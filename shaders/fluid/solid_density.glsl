@@ -4,22 +4,25 @@
 #define RILL_SOLID_DENSITY_GLSL
 #include "fluid/half_space.glsl"
 
-// A box displaces the product of its slabs, a ball what its own table says, a mesh what a half-space does times a factor.
-vec4 solidSample(SolidRecord s, vec3 x) {
+// A box displaces the product of its slabs, a ball what its own table says, a mesh what a half-space does times a factor. `distance`: of x
+// from the surface, or less.
+vec4 solidSample(SolidRecord s, vec3 x, out float distance) {
   vec3 local = localPoint(s.pose, x);
   if (MESHES && s.shape.kind == kShapeMesh) {
     MeshSample mesh = meshSample(s.shape.field, local);
-    vec2 f = face(mesh.distance);
+    distance = mesh.distance;
+    vec2 f = face(distance);
     return vec4(toScene(s.pose, f.y * mesh.factor * mesh.gradient + f.x * mesh.factorGradient), f.x * mesh.factor);
   }
   if (s.shape.kind == kShapeSphere) {
     vec3 normal;
-    float distance = surfaceDistance(s.shape, local, normal);
+    distance = surfaceDistance(s.shape, local, normal);
     vec2 f = line(s.tableOffset, s.tableNodes, distance - s.tableFirst);
     return vec4(toScene(s.pose, normal * f.y), f.x);
   }
-  vec3 half_ = halfExtents(s.shape), slab, slope;
-  if (any(greaterThan(abs(local), half_ + params.support))) return vec4(0.0);
+  vec3 half_ = halfExtents(s.shape), slab, slope, beyond = abs(local) - half_;
+  distance = max(beyond.x, max(beyond.y, beyond.z));
+  if (distance > params.support) return vec4(0.0);
   for (int a = 0; a < 3; ++a) {
     vec2 near = face(local[a] - half_[a]), far = face(local[a] + half_[a]);
     slab[a] = near.x - far.x;
@@ -27,6 +30,11 @@ vec4 solidSample(SolidRecord s, vec3 x) {
   }
   vec3 gradient = vec3(slope.x * slab.y * slab.z, slab.x * slope.y * slab.z, slab.x * slab.y * slope.z);
   return vec4(toScene(s.pose, gradient), slab.x * slab.y * slab.z);
+}
+
+vec4 solidSample(SolidRecord s, vec3 x) {
+  float distance;
+  return solidSample(s, x, distance);
 }
 
 // How much of a solid's image counts, which has x at `image`: of a solid that reaches through a wall the part behind it

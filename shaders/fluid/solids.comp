@@ -17,7 +17,7 @@ layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { DisplacePush push; };
 READ_FLOAT4(2, place)
-layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 4) buffer SumsBlock { FluidSums sums; };
 READ_FLOAT4(5, table)  // value and slope of a node, and of the next one
 READ_UINT4(6, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
@@ -29,9 +29,11 @@ READ_UINT4(10, bodies)  // BodyRecord
 #include "fluid/body_array.glsl"
 layout(std430, binding = 11) writeonly buffer StiffnessBlock { float nearStiffness[]; };
 layout(std430, binding = 12) buffer SolidSumsBlock { uint solidSums[]; };
+layout(std430, binding = 14) writeonly buffer InReachBlock { uvec2 inReach[]; };  // entries, and NearSolids::mask of those in reach
 layout(std430, binding = 13) writeonly buffer SampledBlock { uint nearSampled[]; };  // of each entry, see NearSolids::mask
 #include "fluid/bodies.glsl"
 #include "fluid/solid_sums.glsl"
+#include "fluid/solid_reach.glsl"
 
 // What a body adds to D of a particle at x, where it displaces `gradient`: see docs/notes/bodies.md. Adds the particle to the sum that the
 // next substep takes.
@@ -42,7 +44,7 @@ float stiffnessOf(uint k, uint body, vec3 gradient, vec3 x) {
   int high;
   uint low;
   split(root * params.spacing * sqrt(b.mass) / kDisplacementUnits, high, low);
-  if (push.sumsStiffness != 0u) addWide(k * kSolidSumWords + kStiffnessSum, high, low);
+  if (push.begins != 0u) addWide(k * kSolidSumWords + kStiffnessSum, high, low);
   return b.held != 0u ? 0.0 : root * b.stiffness;
 }
 
@@ -55,14 +57,16 @@ void main() {
   SolidCoverage coverage = SolidCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = vec4(0.0);
   float stiffness = 0.0;
-  uint sampled = near.all ? 0xffffffffu : 0u;
+  uint sampled = near.all ? 0xffffffffu : 0u, reached = 0u;
   Images images = imagesNear(x, params.support);
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
     for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
       SolidRecord s = solidAt(k);
-      vec4 solid = solidSample(s, image);
+      float distance;
+      vec4 solid = solidSample(s, image, distance);
+      if (signs == vec3(1.0) && distance < reachOf(s)) reached |= 1u << min(m, 31u);
       if (solid == vec4(0.0)) continue;
       if (!near.all) sampled |= 1u << m;
       solid *= shareOfImage(s, image);
@@ -77,4 +81,5 @@ void main() {
   nearTangential[i] = packSolidScale(coverage);
   if (BODIES) nearStiffness[i] = stiffness;
   if (LOADS) nearSampled[n] = sampled;
+  if (push.begins != 0u && reached != 0u) inReach[atomicAdd(sums.inReach, 1u)] = uvec2(n, reached);
 }

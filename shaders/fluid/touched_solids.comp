@@ -13,12 +13,18 @@ READ_UINT4(2, solids)  // SolidRecord
 layout(std430, binding = 3) buffer BodyBlock { BodyRecord bodies[]; };
 layout(std430, binding = 4) writeonly buffer TouchedBlock { TouchedRecord touched[]; };
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 7) writeonly buffer ContactCandidateBlock { uvec2 contactCandidates[]; };
+layout(std430, binding = 8) writeonly buffer ContactCommandBlock { uint contactCommands[]; };
 #include "fluid/bodies.glsl"
 
 const uint kMaxNear = 4u * kMaxTouched;
 
 void main() {
   uint n = flatInvocation();
+  if (n == 0u) {
+    contactCandidates[0] = uvec2(0u);
+    for (uint k = 0u; k < 6u; ++k) contactCommands[k] = k % 3u == 0u ? 0u : 1u;
+  }
   if (n >= params.bodyCount) return;
   uint own = bodies[n].solid, count = 0u, skipped = 0u;
   bodies[n].contacts = 0u;

@@ -29,6 +29,7 @@ RILL_CONST uint kOverLists = 3u;           // the same, of the variant that read
 RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walks the grid: a list overflowed, or the fluid has no list
 RILL_CONST uint kOverNearSolids = 5u;      // the particles near solids
 RILL_CONST uint kOverNearMouths = 6u;      // those near mouths of emitters
+RILL_CONST uint kOverInReach = 7u;         // those in reach of solids in the substep
 RILL_CONST uint kMaxCommands = 64u;
 RILL_CONST uint kTicketWord = 3u * kMaxCommands;  // behind the commands: invocations of a density pass that have finished
 

@@ -255,6 +255,8 @@ struct FluidSums {
   float diffusionStep;       // s, the time that each is for
   uint diffusionBoundHits;   // steps since the start that needed more than FluidParams::diffusionStages
   uint viscosityCapped;      // particles whose viscosity by shear was more than the last solve reaches
+  uint inReach;              // particles in reach of solids (fluid/solid_reach.glsl), as they are counted
+  uint reached;              // the same of the substep whose correction has begun
 };
 RILL_CONST float kMotionUnit = 1.0f / 67108864.0f;
 RILL_CONST float kMaxMotion = 32.0f;  // what one particle adds, at most

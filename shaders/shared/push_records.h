@@ -27,7 +27,7 @@ struct ControlPush {
 };
 
 struct DisplacePush {
-  uint sumsStiffness;  // 1: of bodies, for the next substep
+  uint begins;         // 1: the first iteration of a substep
 };
 
 struct MouthDensityPush {

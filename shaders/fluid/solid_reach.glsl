@@ -1,0 +1,14 @@
+// Which particles a solid may push or touch in a substep: those whose prediction is within this distance of its surface. A particle that
+// its correction moves by more than half a spacing toward a solid meets it a substep later.
+#ifndef RILL_SOLID_REACH_GLSL
+#define RILL_SOLID_REACH_GLSL
+
+// m from a solid within which it has friction.
+float contactReach() { return 1.1 * params.margin; }
+
+// m; of solids but bodies, the next prediction is pushed out, too.
+float reachOf(SolidRecord s) {
+  float next = params.cfl * params.spacing + 1.5 * control.solidSpeed * control.nextStep;
+  return contactReach() + 0.5 * params.spacing + (s.body == kNoBody ? next : 0.0);
+}
+#endif
