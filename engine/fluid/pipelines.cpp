@@ -45,6 +45,7 @@ std::vector<NamedConstant> FluidImpl::constants(Device& device) const {
           {"NEAR_QUADS", nearSolidQuads(p.solidCount)},
           {"LOADS", setup.loads},
           {"BODIES", !setup.bodies.empty()},
+          {"FIRM_SOLIDS", setup.solids.size() > setup.bodies.size()},
           {"SHEAR_VISCOSITY", setup.shearViscosity},
           {"NO_SLIP_WALLS", setup.noSlipWalls},
           {"NO_SLIP_SOLIDS", setup.noSlipSolids},

@@ -36,12 +36,11 @@ float shareOf(uint body, vec3 x, vec3 direction) {
   return 1.0 / (1.0 + 2.0 * params.spacing * sqrt(mobility(b, x, direction)) * b.stiffness);  // beside it |grad B| is about 1 / (2 d)
 }
 
-bool countsPushes = false;  // whether what pushes a center changes its velocity
 float ownInverseMass;
 bool gaveWay = false;       // whether a body that did pushed it
 vec3 rejected = vec3(0.0);  // the part of that, m, which changes no velocity
 void pushedBy(uint k, SolidRecord s, vec3 x, vec3 normal, vec3 by) {
-  if (!countsPushes) return;
+  if (control.phase != kPhaseAdvancing) return;
   if (BODIES) {
     float share = shareOf(s.body, x, normal);
     gaveWay = gaveWay || share < kFirmShare;
@@ -61,29 +60,79 @@ layout(std430, binding = 12) readonly buffer DisplacedBlock { vec4 nearDisplaced
 
 // The listed solid nearest to x, which pushed its prediction, and the direction. Bodies push no prediction.
 uint nearestSolid(NearSolids near, vec3 x, out vec3 center, out vec3 direction) {
-  uint nearest = kNoSolid;
+  uint nearest = kNoSolid, m = 0u, k;
   float least = 3.0e38;
   center = direction = vec3(0.0);
-  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+  bool some = nextSolid(near, m, k);
+  LOOP_WHILE (some) {
     SolidRecord s = solidAt(k);
-    if (BODIES && s.body != kNoBody) continue;
     vec3 normal;
     float distance = surfaceDistance(s.shape, localPoint(s.pose, x), normal);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = k;
-    center = centerOf(s.pose);
-    direction = toScene(s.pose, normal);
-  }
+    if (s.body == kNoBody && distance < least) {
+      least = distance;
+      nearest = k;
+      center = centerOf(s.pose);
+      direction = toScene(s.pose, normal);
+    }
+    ++m;
+    some = nextSolid(near, m, k);
+  } LOOP_END(some);
   return nearest;
 }
 
-void predict(uint i, NearSolids near, vec3 x, vec3 v, uint fluid) {
-  if (FORCES) return;  // predict.comp, after them
-  float pushed;
-  vec3 planned = predicted(x, v, keptWarmAcceleration(warmAcceleration[i]));
-  vec3 next = outside(planned, near, ahead(), pushed);
-  prediction[i] = vec4(next, withFluid(pushed, fluid));
+// The velocity of particle i at x after contact with a solid that is near enough.
+vec3 touch(uint i, uint k, SolidRecord s, vec3 x, vec3 normal, vec3 v, vec3 given) {
+  vec3 moving = velocityAt(s.pose, x);
+  float before = dot(freeVelocity[i].xyz - moving, normal);
+  vec3 relative = v - moving;
+  float away = dot(relative, normal);
+  vec3 along = relative - away * normal;
+  float predicted_ = BODIES && s.body != kNoBody ? 0.0 : freeVelocity[i].w / control.step;
+  float impulse = max(0.0, dot(given, normal) + predicted_);
+  if (before < 0.0 && s.restitution > 0.0 && away < -s.restitution * before) {
+    float bounce = -s.restitution * before - away;
+    if (BODIES) bounce *= shareOf(s.body, x, normal);
+    impulse += bounce;
+    away = BODIES ? away + bounce : -s.restitution * before;
+  }
+  float slip = length(along);
+  float stopped = slip > 0.0 ? min(1.0, s.friction * impulse / slip) : 0.0;
+  if (BODIES && slip > 0.0) stopped *= shareOf(s.body, x, along / slip);
+  along *= 1.0 - stopped;
+  vec3 after = moving + along + away * normal;
+  if (LOADS) addToSolid(k, centerOf(s.pose), control.step / ownInverseMass * (after - v), x);
+  return after;
+}
+
+// The velocity of particle i, which solids have moved from `from` to x.
+vec3 velocityAfter(uint i, NearSolids near, vec3 from, vec3 x) {
+  vec3 gained = (x - from) / control.step;
+  if (BODIES) gained -= rejected / control.step;
+  float fastest = BODIES ? max(control.solidSpeed, control.bodySpeed) : control.solidSpeed;
+  if (!gaveWay) gained *= keptPush(velocity[i].xyz, gained, maxSpeedGain() + fastest);
+  vec3 v = velocity[i].xyz + gained;
+  // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
+  // share of the change already.
+  float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
+  float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
+  vec3 given = ownInverseMass * multiplier * nearDisplaced[i].xyz / control.step + gained;
+  if (LOADS && FIRM_SOLIDS && freeVelocity[i].w > 0.0) {
+    vec3 center, direction, at = uintBitsToFloat(work[i].xyz);
+    uint pushing = nearestSolid(near, at, center, direction);
+    if (pushing != kNoSolid) addToSolid(pushing, center, freeVelocity[i].w / ownInverseMass * direction, at);
+  }
+  uint m = 0u, k;
+  bool some = nextSolid(near, m, k);
+  LOOP_WHILE (some) {
+    SolidRecord s = solidAt(k);
+    vec3 normal;
+    bool touches = (s.friction > 0.0 || s.restitution > 0.0) && !isBeyond(centerOf(s.pose), s.radius, x, contactReach() + params.spacing);
+    touches = touches && surfaceDistance(s.shape, localPoint(s.pose, x), normal) <= contactReach();
+    if (touches) v = touch(i, k, s, x, toScene(s.pose, normal), v, given);
+    ++m;
+    some = nextSolid(near, m, k);
+  } LOOP_END(some);
+  return v * min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));
 }
 
 void main() {
@@ -98,59 +147,13 @@ void main() {
   uint fluid = fluidOfPosition(position[i]);
   ownInverseMass = inverseMassOf(fluid);
   float pushed;
-  countsPushes = control.phase == kPhaseAdvancing;
-  vec3 x = outside(from, near, 0.0, pushed);
-  countsPushes = false;
-  if (control.phase != kPhaseAdvancing) {
-    position[i] = vec4(x, storedFluid(fluid));
-    predict(i, near, x, velocity[i].xyz, fluid);
-    return;
-  }
-  vec3 gained = (x - from) / control.step;
-  if (BODIES) gained -= rejected / control.step;
-  float fastest = BODIES ? max(control.solidSpeed, control.bodySpeed) : control.solidSpeed;
-  if (!gaveWay) gained *= keptPush(velocity[i].xyz, gained, maxSpeedGain() + fastest);
-  vec3 v = velocity[i].xyz + gained;
-  // The multiplier in all, never positive: what the warm start had, and the change. `warm` has a
-  // share of the change already.
-  float change = unpackHalf2x16(work[i].w).x * (params.inverseRestGradient / kMultiplierScale);
-  float multiplier = min(0.0, (WARM ? warm[i] : 0.0) + (1.0 - control.warmGain) * change);
-  vec3 given = ownInverseMass * multiplier * nearDisplaced[i].xyz / control.step + gained;
-  if (LOADS && freeVelocity[i].w > 0.0) {
-    vec3 center, direction, at = uintBitsToFloat(work[i].xyz);
-    uint pushing = nearestSolid(near, at, center, direction);
-    if (pushing != kNoSolid) addToSolid(pushing, center, freeVelocity[i].w / ownInverseMass * direction, at);
-  }
-  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
-    SolidRecord s = solidAt(k);
-    if (s.friction <= 0.0 && s.restitution <= 0.0) continue;
-    if (isBeyond(centerOf(s.pose), s.radius, x, contactReach() + params.spacing)) continue;
-    vec3 normal;
-    if (surfaceDistance(s.shape, localPoint(s.pose, x), normal) > contactReach()) continue;
-    normal = toScene(s.pose, normal);
-    vec3 moving = velocityAt(s.pose, x);
-    float before = dot(freeVelocity[i].xyz - moving, normal);
-    vec3 relative = v - moving;
-    float away = dot(relative, normal);
-    vec3 along = relative - away * normal;
-    float predicted_ = BODIES && s.body != kNoBody ? 0.0 : freeVelocity[i].w / control.step;
-    float impulse = max(0.0, dot(given, normal) + predicted_);
-    if (before < 0.0 && s.restitution > 0.0 && away < -s.restitution * before) {
-      float bounce = -s.restitution * before - away;
-      if (BODIES) bounce *= shareOf(s.body, x, normal);
-      impulse += bounce;
-      away = BODIES ? away + bounce : -s.restitution * before;
-    }
-    float slip = length(along);
-    float stopped = slip > 0.0 ? min(1.0, s.friction * impulse / slip) : 0.0;
-    if (BODIES && slip > 0.0) stopped *= shareOf(s.body, x, along / slip);
-    along *= 1.0 - stopped;
-    vec3 after = moving + along + away * normal;
-    if (LOADS) addToSolid(k, centerOf(s.pose), control.step / ownInverseMass * (after - v), x);
-    v = after;
-  }
-  v *= min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));
+  vec3 x = outside(from, near, 0.0, true, pushed), v = velocity[i].xyz;
+  if (control.phase == kPhaseAdvancing) v = velocityAfter(i, near, from, x);
   position[i] = vec4(x, storedFluid(fluid));
   velocity[i] = vec4(v, 1.0);
-  predict(i, near, x, v, fluid);
+  if (FORCES) return;  // predict.comp, after them
+  vec3 planned = predicted(x, v, keptWarmAcceleration(warmAcceleration[i]));
+  pushed = 0.0;
+  vec3 next = FIRM_SOLIDS ? outside(planned, near, ahead(), false, pushed) : insideWalls(planned);
+  prediction[i] = vec4(next, withFluid(pushed, fluid));
 }

@@ -19,6 +19,7 @@ layout(constant_id = 15) const bool MESHES = false;    // some solids are meshes
 layout(constant_id = 16) const bool CULL_SOLIDS = false;  // many solids: each workgroup finds those near it
 layout(constant_id = 17) const bool LOADS = false;     // loads on solids are measured
 layout(constant_id = 18) const bool BODIES = false;    // some solids are rigid bodies
+layout(constant_id = 19) const bool FIRM_SOLIDS = true;  // some solids are no bodies: those push predictions, too
 layout(constant_id = 20) const bool NO_SLIP_WALLS = false;   // fluid sticks to the domain's walls
 layout(constant_id = 21) const bool NO_SLIP_SOLIDS = false;  // fluid sticks to some solids
 layout(constant_id = 22) const bool REMOVES = false;   // particles come and go: at a rebuild, inactive ones are taken out

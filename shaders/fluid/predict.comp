@@ -29,6 +29,6 @@ void main() {
   vec3 x = present.xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));
   float pushed = 0.0;
-  next = NEAR_SOLIDS ? outside(next, near, ahead(), pushed) : insideWalls(next);
+  next = NEAR_SOLIDS ? outside(next, near, ahead(), false, pushed) : insideWalls(next);
   prediction[i] = vec4(isFinite(next) ? next : x, withFluid(pushed, fluidOfPosition(present)));
 }

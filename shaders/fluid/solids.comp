@@ -62,19 +62,24 @@ void main() {
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
-    for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
+    uint m = 0u, k;
+    bool some = nextSolid(near, m, k);
+    LOOP_WHILE (some) {
       SolidRecord s = solidAt(k);
       float distance;
       vec4 solid = solidSample(s, image, distance);
       if (signs == vec3(1.0) && distance < reachOf(s)) reached |= 1u << min(m, 31u);
-      if (solid == vec4(0.0)) continue;
-      if (!near.all) sampled |= 1u << m;
-      solid *= shareOfImage(s, image);
-      if (BODIES) stiffness += stiffnessOf(k, s.body, solid.xyz, image);
-      solid.xyz *= signs;
-      displaced += solid;
-      cover(coverage, solid.w, solid.xyz);
-    }
+      if (solid != vec4(0.0)) {
+        if (!near.all) sampled |= 1u << m;
+        solid *= shareOfImage(s, image);
+        if (BODIES) stiffness += stiffnessOf(k, s.body, solid.xyz, image);
+        solid.xyz *= signs;
+        displaced += solid;
+        cover(coverage, solid.w, solid.xyz);
+      }
+      ++m;
+      some = nextSolid(near, m, k);
+    } LOOP_END(some);
     more = advance(images);
   } LOOP_END(more);
   nearDisplaced[i] = displaced;
