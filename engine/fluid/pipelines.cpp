@@ -140,7 +140,11 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
         if (auto ok = add(kOverLists, {}, withoutCluster(device.info(), choice, kFluidGroup)); !ok) return ok;
       return add(kOverGrid, {{"WALKS", true}}, choice.need);
     case Extent::NearGather:
-      return add(kOverNearSolids, {{"WALKS", true}}, choice.need);
+      // On GPUs, which merge passes, a dispatch more costs more than code that is not entered.
+      if (setup.mergesPasses) return add(kOverNearSolids, {{"WALKS", true}}, choice.need);
+      if (setup.params.listCapacity > 0)
+        if (auto ok = add(kOverNearLists, {}, withoutCluster(device.info(), choice, kFluidGroup)); !ok) return ok;
+      return add(kOverNearGrid, {{"WALKS", true}}, choice.need);
     case Extent::NearSolids:
       return add(kOverNearSolids, {{"NEAR_SOLIDS", true}});
     case Extent::InReach:

@@ -38,6 +38,8 @@ void switchCommands(uint on, uint lane, uint lanes) {
       case kOverLists: groups = groupsFor(walks ? 0u : min(count, params.chunkParticles), shape.x); break;
       case kOverGrid: groups = groupsFor(walks ? min(count, params.chunkParticles) : 0u, shape.x); break;
       case kOverNearSolids: groups = groupsFor(sums.nearSolids, shape.x); break;
+      case kOverNearLists: groups = groupsFor(walks ? 0u : sums.nearSolids, shape.x); break;
+      case kOverNearGrid: groups = groupsFor(walks ? sums.nearSolids : 0u, shape.x); break;
       case kOverInReach: groups = groupsFor(sums.inReach, shape.x); break;
       case kOverNearMouths: groups = groupsFor(sums.nearMouths, shape.x); break;
     }

@@ -30,6 +30,8 @@ RILL_CONST uint kOverGrid = 4u;            // the same, of the variant that walk
 RILL_CONST uint kOverNearSolids = 5u;      // the particles near solids
 RILL_CONST uint kOverNearMouths = 6u;      // those near mouths of emitters
 RILL_CONST uint kOverInReach = 7u;         // those in reach of solids in the substep
+RILL_CONST uint kOverNearLists = 8u;       // the particles near solids, of the variant that reads lists alone
+RILL_CONST uint kOverNearGrid = 9u;        // the same, of the variant that walks the grid
 RILL_CONST uint kMaxCommands = 64u;
 RILL_CONST uint kTicketWord = 3u * kMaxCommands;  // behind the commands: invocations of a density pass that have finished
 
