@@ -58,15 +58,26 @@ void addSolid(inout Reaction r, SolidRecord s, vec3 x, vec2 multipliers) {
   } LOOP_END(more);
 }
 
-// By all lanes; `mine`: the lane has something for solid k, which is the same for these lanes.
+// By all lanes; `mine`: the lane has something for solid k, which is the same for these lanes. Each lane adds some of the totals: CPU
+// drivers execute an atomic addition for all lanes, one by one.
 void addToSums(uint k, Reaction r, bool mine) {
-  for (uint c = 0u; c < 2u * kLoadComponents; ++c) {
-    int high;
-    uint low;
-    split(mine ? r.units[c] : 0.0, high, low);
-    high = subgroupAdd(high);
-    low = subgroupAdd(low);
-    if (subgroupElect()) addWide(k * kSolidSumWords + 2u * c, high, low);
+  const uint kSums = 2u * kLoadComponents;
+  int high[kSums];
+  uint low[kSums];
+  for (uint c = 0u; c < kSums; ++c) {
+    split(mine ? r.units[c] : 0.0, high[c], low[c]);
+    high[c] = subgroupAdd(high[c]);
+    low[c] = subgroupAdd(low[c]);
+  }
+  for (uint first = 0u; first < kSums; first += gl_SubgroupSize) {
+    uint own = first + gl_SubgroupInvocationID, lowOfOwn = 0u;
+    int highOfOwn = 0;
+    for (uint c = 0u; c < kSums; ++c) {
+      if (c != own) continue;
+      highOfOwn = high[c];
+      lowOfOwn = low[c];
+    }
+    addWide(k * kSolidSumWords + 2u * min(own, kSums - 1u), highOfOwn, lowOfOwn);
   }
 }
 
