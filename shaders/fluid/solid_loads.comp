@@ -16,7 +16,7 @@ void main() {
     uint words = n * kSolidSumWords;
     if (advances && last && control.substeps == 1u) endAdvance(n);  // one that was cut short, if any
     if (advances && last) solidLoads[n].advanceTime += control.step;
-    if (BODIES && last) solidLoads[n].stiffness = kDisplacementUnits * takeSum(words + kStiffnessSum);
+    if (BODIES && last) solidLoads[n].stiffness = kStiffnessUnits * takeSum(words + kStiffnessSum);
     for (uint c = 0u; c < kLoadComponents; ++c) {
       float solve = reaction(c, words + kSolveSums);
       if (BODIES && advances) solidLoads[n].solve[c] = solve / control.step;

@@ -41,10 +41,9 @@ float stiffnessOf(uint k, uint body, vec3 gradient, vec3 x) {
   if (body == kNoBody) return 0.0;
   BodyRecord b = bodyAt(body);
   float root = sqrt(mobility(b, x, gradient));
-  int high;
-  uint low;
-  split(root * params.spacing * sqrt(b.mass) / kDisplacementUnits, high, low);
-  if (push.begins != 0u) addWide(k * kSolidSumWords + kStiffnessSum, high, low);
+  float added = root * params.spacing * sqrt(b.mass);
+  uint units = uint((added < kMaxStiffness ? added : kMaxStiffness) / kStiffnessUnits + 0.5);
+  if (push.begins != 0u) addWide(k * kSolidSumWords + kStiffnessSum, 0, units);
   return b.held != 0u ? 0.0 : root * b.stiffness;
 }
 

@@ -10,7 +10,7 @@ RILL_CONST uint kLoadComponents = 6u;
 // Sums of a solid over the particles near it, in 64-bit integers of two words, the low one first, so that their order does not matter:
 // displacements that the solid gives particles in a substep, in kDisplacementUnits of the spacing, and their moments about its center,
 // in these times FluidParams::loadLever. First those of the solve, then those of the warm start, which the next substep applies. Last, of
-// bodies, the stiffness of BodyRecord, in kDisplacementUnits of m / (spacing sqrt(mass)).
+// bodies, the stiffness of BodyRecord, in kStiffnessUnits of m / (spacing sqrt(mass)).
 RILL_CONST uint kSolveSums = 0u;
 RILL_CONST uint kWarmSums = 2u * kLoadComponents;
 RILL_CONST uint kStiffnessSum = 4u * kLoadComponents;
@@ -21,6 +21,8 @@ RILL_CONST uint kSolidSumWords = 4u * kLoadComponents + 2u;
 RILL_CONST uint kNoSlipComponents = 16u;
 RILL_CONST uint kNoSlipSumWords = 2u * kNoSlipComponents;
 RILL_CONST float kDisplacementUnits = 1.0f / 1099511627776.0f;  // 2^-40
+RILL_CONST float kStiffnessUnits = 1.0f / 1048576.0f;  // so coarse that what a particle adds is one word: a bound need not be exact
+RILL_CONST float kMaxStiffness = 2048.0f;              // likewise: what one particle adds, at most
 RILL_CONST float kMaxDisplacement = 8.0f;                       // spacings: what one particle adds, at most
 
 // N and N m; N s and N m s. In the axes of the scene, about the solid's center. Without the solid's own weight.
@@ -31,7 +33,7 @@ struct SolidLoadRecord {
   float advance[kLoadComponents];      // of the present advance
   float advanceTime;                   // s, likewise
   float solve[kLoadComponents];        // N s and N m s, of the solve of the last substep
-  float stiffness;                     // kStiffnessSum of the last substep, times kDisplacementUnits
+  float stiffness;                     // kStiffnessSum of the last substep, times kStiffnessUnits
   float warm[kLoadComponents];         // N and N m, of the warm start: the next substep applies it
 };
 
