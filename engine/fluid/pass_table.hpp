@@ -129,7 +129,7 @@ enum class Extent : uint8_t {
   ContactBodies,   ///< rigid bodies, if one of these points may
   PressureProbes,  ///< a workgroup each
   Births,          ///< particles that emitters may add at a rebuild
-  NearGather       ///< the same over their neighbors, a dispatch for each buffer of the list; on GPUs in the second variant alone
+  NearGather       ///< the same over their neighbors; where passes are merged (on GPUs) in the variant that can walk the grid alone
 };
 
 /// When a pass exists, and what the report of skipped passes says where it does not.

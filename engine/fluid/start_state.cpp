@@ -198,6 +198,9 @@ void FluidImpl::stageSnapshot(const FluidSnapshot& s) {
   // Which particles are near mouths is not kept: until the next rebuild, all may be.
   const auto nearMouths = static_cast<uint32_t>(setup.emitters.empty() ? 0 : s.id.size());
   sums[offsetof(FluidSums, nearMouths) / 4] = nearMouths;
+  sums[offsetof(FluidSums, inReach) / 4] = 0;  // between substeps; what was reached is counted anew before its list is read
+  uint32_t& reached = sums[offsetof(FluidSums, reached) / 4];
+  reached = std::min(reached, sums[offsetof(FluidSums, nearSolids) / 4]);
   staging_->add(slotOf(FluidArray::Sums), sums.size() * 4, bytesOf(sums));
   std::vector<uint32_t> all(nearMouths);
   std::iota(all.begin(), all.end(), 0u);

@@ -1,7 +1,7 @@
 #version 460
 // Contacts of bodies with walls and other solids, a sample point an invocation: position-based (Mueller et al. 2020), all at once.
 // COUNTS: counts the contacts of each body, which share its mass, so that together they do not correct too much (Tonge et al. 2012), and
-// lists the points that may touch something, which the others are over.
+// lists the points that may touch something, which the solving passes run over.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"

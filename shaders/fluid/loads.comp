@@ -58,6 +58,8 @@ void addSolid(inout Reaction r, SolidRecord s, vec3 x, vec2 multipliers) {
   } LOOP_END(more);
 }
 
+uint lane = 0u, lanes = 1u;  // among those of the subgroup that are there
+
 // By all lanes; `mine`: the lane has something for solid k, which is the same for these lanes. Each lane adds some of the totals: CPU
 // drivers execute an atomic addition for all lanes, one by one.
 void addToSums(uint k, Reaction r, bool mine) {
@@ -69,8 +71,8 @@ void addToSums(uint k, Reaction r, bool mine) {
     high[c] = subgroupAdd(high[c]);
     low[c] = subgroupAdd(low[c]);
   }
-  for (uint first = 0u; first < kSums; first += gl_SubgroupSize) {
-    uint own = first + gl_SubgroupInvocationID, lowOfOwn = 0u;
+  for (uint first = 0u; first < kSums; first += lanes) {
+    uint own = first + lane, lowOfOwn = 0u;
     int highOfOwn = 0;
     for (uint c = 0u; c < kSums; ++c) {
       if (c != own) continue;
@@ -93,6 +95,8 @@ void main() {
 
   near.mask = nearSampledAt(inRange ? n : 0u);
 
+  lanes = subgroupAdd(1u);
+  lane = subgroupExclusiveAdd(1u);
   // By solids that any lane has, not by each lane's own next one: then a solid's sums take one addition a subgroup.
   uint m = 0u, k = 0u;
   bool more = inRange && isActive(x) && nextSolid(near, m, k);

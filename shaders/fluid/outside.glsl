@@ -13,7 +13,7 @@
 #endif
 
 // Moves a center out of the solids `near` it, where each will be `ahead` seconds from now, walls last.
-// `pushed`: m that solids moved it.
+// `counts`: x is a position, not a prediction, which bodies do not push. `pushed`: m that solids moved it.
 vec3 outside(vec3 x, NearSolids near, float ahead, bool counts, out float pushed) {
   pushed = 0.0;
   uint n = 0u, k;
@@ -21,7 +21,7 @@ vec3 outside(vec3 x, NearSolids near, float ahead, bool counts, out float pushed
   LOOP_WHILE (some) {
     SolidRecord s = solidAt(k);
     vec3 center = centerOf(s.pose) + ahead * velocityOf(s.pose);
-    bool ignored = BODIES && ahead > 0.0 && s.body != kNoBody;  // the density that a body displaces is enough
+    bool ignored = BODIES && !counts && s.body != kNoBody;  // the density that a body displaces is enough
     if (!ignored && !isBeyond(center, s.radius, x, params.margin + params.spacing)) {  // a sheet is thicker than its bounds
       PoseRecord pose = later(s.pose, ahead);
       vec3 normal;

@@ -1,5 +1,5 @@
-// Which particles a solid may push or touch in a substep: those whose prediction is within this distance of its surface. A particle that
-// its correction moves by more than half a spacing toward a solid meets it a substep later.
+// Which particles a solid may push or touch in a substep: those whose prediction is within this distance of its surface. A particle goes at
+// most twice as far from its place as cfl allows (correct.comp), and so three times as far from its prediction.
 #ifndef RILL_SOLID_REACH_GLSL
 #define RILL_SOLID_REACH_GLSL
 
@@ -9,6 +9,6 @@ float contactReach() { return 1.1 * params.margin; }
 // m; of solids but bodies, the next prediction is pushed out, too.
 float reachOf(SolidRecord s) {
   float next = params.cfl * params.spacing + 1.5 * control.solidSpeed * control.nextStep;
-  return contactReach() + 0.5 * params.spacing + (s.body == kNoBody ? next : 0.0);
+  return contactReach() + max(3.0 * params.cfl, 0.03) * params.spacing + (s.body == kNoBody ? next : 0.0);
 }
 #endif

@@ -42,7 +42,8 @@ float stiffnessOf(uint k, uint body, vec3 gradient, vec3 x) {
   BodyRecord b = bodyAt(body);
   float root = sqrt(mobility(b, x, gradient));
   float added = root * params.spacing * sqrt(b.mass);
-  uint units = uint((added < kMaxStiffness ? added : kMaxStiffness) / kStiffnessUnits + 0.5);
+  float counted = added < kMaxStiffness ? added : (added >= kMaxStiffness ? kMaxStiffness : 0.0);  // NaN: nothing
+  uint units = uint(counted / kStiffnessUnits + 0.5);
   if (push.begins != 0u) addWide(k * kSolidSumWords + kStiffnessSum, 0, units);
   return b.held != 0u ? 0.0 : root * b.stiffness;
 }

@@ -2,6 +2,7 @@
 #include "fluid/snapshot.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "fluid/rig.hpp"
@@ -156,6 +157,21 @@ TEST_F(SnapshotTest, ContinuesWithInactiveParticles) {
   Trial t = dam();
   t.x[5].x = std::numeric_limits<double>::quiet_NaN();
   expectTheSame(t);
+}
+
+// Numbers of particles that index lists which a snapshot does not have: a file may say anything.
+TEST_F(SnapshotTest, CountsParticlesInReachAnew) {
+  Trial t = dam();
+  t.scene.solids = {moving(ball({0.55, 0.15, 0.1875}, 0.1))};
+  auto run = start(t);
+  run->advance(kFrame);
+  FluidSnapshot saved = run->saved();
+  saved.sums[offsetof(FluidSums, inReach) / 4] = 0xf0000000u;
+  saved.sums[offsetof(FluidSums, reached) / 4] = 0xffffffffu;
+  auto resumed = start(t, &saved);
+  run->advance(kFrame);
+  resumed->advance(kFrame);
+  EXPECT_EQ(resumed->snapshot(), run->snapshot());
 }
 
 TEST_F(SnapshotTest, RejectsSnapshotOfAnotherFluid) {
