@@ -38,31 +38,36 @@ struct FrameFile {
 
 fs::path whitewaterOf(const fs::path& particles) { return fs::path(particles).replace_extension("whitewater.ply"); }
 
-/// DIR/*.ply in order of their names, without meshes. Unless `quiet`, says so if there is whitewater that is not drawn.
-Expected<std::vector<FrameFile>> filesIn(const fs::path& folder, const Scene& scene, bool quiet) {
+/// DIR/*.ply in order of their names, without meshes, at most `most`. Unless `quiet`, says where whitewater is not drawn.
+Expected<std::vector<FrameFile>> filesIn(const fs::path& folder, const Scene& scene, std::optional<uint32_t> most, bool quiet) {
   std::error_code error;
-  std::vector<fs::path> files;
+  std::vector<FrameFile> frames;
   std::set<fs::path> whitewater;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().string();
     if (name.ends_with(".whitewater.ply"))
       whitewater.insert(at->path());
     else if (name.ends_with(".ply") && !name.ends_with(".mesh.ply"))
-      files.push_back(at->path());
+      frames.push_back({at->path()});
   }
   if (error) return Error{ErrorKind::BadInput, "--play: cannot read the folder " + inQuotes(folder.string()) + ": " + error.message()};
-  if (files.empty())
+  if (frames.empty())
     return Error{ErrorKind::BadInput, "--play: " + inQuotes(folder.string()) + " contains no .ply file; expected a folder of frames"};
-  std::sort(files.begin(), files.end());
-  std::vector<FrameFile> frames;
-  for (const fs::path& file : files) {
-    frames.push_back({file});
-    if (scene.look.whitewater && whitewater.erase(whitewaterOf(file)) > 0) frames.back().whitewater = whitewaterOf(file);
+  std::ranges::sort(frames, {}, &FrameFile::particles);
+  if (most && *most < frames.size()) frames.resize(*most);
+  size_t found = 0;
+  const FrameFile* without = nullptr;
+  for (FrameFile& frame : frames) {
+    const bool has = whitewater.contains(whitewaterOf(frame.particles));
+    found += has;
+    if (has && scene.look.whitewater) frame.whitewater = whitewaterOf(frame.particles);
+    if (!has && !without) without = &frame;
   }
-  if (!whitewater.empty() && !quiet)
-    message("warning: --play: whitewater (" + grouped(whitewater.size()) + " of .whitewater.ply) is not drawn: " +
-            (scene.look.whitewater ? inQuotes(whitewater.begin()->string()) + " has no particles of the fluid beside it"
-                                   : "look.whitewater is false (--set rill=0.2 look.whitewater=true)"));
+  if (found > 0 && !scene.look.whitewater && !quiet)
+    message("warning: --play: whitewater (" + grouped(found) +
+            " of .whitewater.ply) is not drawn: look.whitewater is false (--set rill=0.2 look.whitewater=true)");
+  else if (found > 0 && without && !quiet)
+    message("warning: --play: " + inQuotes(without->particles.string()) + " has no .whitewater.ply beside it: there drops are white");
   return frames;
 }
 
@@ -106,9 +111,8 @@ int runPlayback(const Options& options) {
   if (!found) return refuse(found.error());
   auto scene = loadScene(*found, options.overrides);
   if (!scene) return refuse(scene.error());
-  auto files = filesIn(*options.play, *scene, options.quiet);
+  auto files = filesIn(*options.play, *scene, options.frames, options.quiet);
   if (!files) return refuse(files.error());
-  if (options.frames && *options.frames < files->size()) files->resize(*options.frames);
   const bool byName = fs::path(options.scene) != *found;
   const fs::path out = options.out ? *options.out : fs::path("out") / (byName ? fs::path(options.scene) : fs::path(scene->name));
   std::error_code ignored;

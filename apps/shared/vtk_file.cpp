@@ -94,7 +94,8 @@ std::vector<std::byte> encodeVtu(const offline::Particles& particles, double tim
 
 std::vector<std::byte> encodeWhitewaterVtu(const offline::DiffuseParticles& particles, double time_s) {
   VtkArrays arrays;
-  assert(particles.velocities.size() == particles.positions.size() && particles.ages.size() == particles.positions.size());
+  assert(particles.velocities.size() == particles.positions.size() && particles.ages.size() == particles.positions.size() &&
+         particles.classes.size() == particles.positions.size());
   std::vector<uint8_t> classes;
   for (const WhitewaterClass one : particles.classes) classes.push_back(static_cast<uint8_t>(one));
   const std::string attributes = "<PointData Scalars=\"class\" Vectors=\"velocity\">\n" +

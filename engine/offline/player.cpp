@@ -157,11 +157,12 @@ class Player::Impl {
 
   DrawnWhitewater drawnWhitewater(Graph& graph) {
     if (!foams_ || count_ == 0) return {};
+    const auto capacity = std::max(count_, static_cast<uint32_t>(capacityOf(scene_, start_.positions.size())));
     return {.state = {.place = staged(graph, "played places of whitewater", whitePlace_),
                       .motion = staged(graph, "played motions of whitewater", whiteMotion_),
                       .counts = staged(graph, "played counts of whitewater", whiteCounts_),
                       .room = std::max(whiteRoom_, 1u)},
-            .size = drawnRadius(whitewaterOf(scene_, start_, static_cast<uint32_t>(capacityOf(scene_, start_.positions.size()))))};
+            .size = drawnRadius(whitewaterOf(scene_, start_, capacity))};
   }
 
   Expected<void> run(Graph& graph, const std::function<void(Graph&)>& declare) {

@@ -87,7 +87,7 @@ TEST(Play, DrawsExportedWhitewater) {
   EXPECT_LE(distance(simulated, readPicture(folder / "played/frame_00003.png")).mean, 0.2 * missing);
 
   std::filesystem::rename(folder / "run/frame_00002.whitewater.ply", folder / "run/other.whitewater.ply");
-  EXPECT_NE(run({"--play", "run", "--out", "without"}).find("has no particles of the fluid beside it"), std::string::npos);
+  EXPECT_NE(run({"--play", "run", "--out", "without"}).find("frame_00002.ply\" has no .whitewater.ply beside it"), std::string::npos);
 }
 
 TEST(Play, RefusesBadWhitewater) {
@@ -216,7 +216,10 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   std::vector<Float3> positions;
   for (int i = 0; i < 1000; ++i) positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10 % 10), 0.1f * float(i / 100)});
   const Double3 origin = {-0.5, -0.5, -0.5};
-  offline::DiffuseParticles white{.positions = positions,
+  std::vector<Float3> inScene, above;
+  for (const Float3& p : positions) inScene.push_back({p.x - 0.5f, p.y - 0.5f, p.z - 0.5f});
+  for (const Float3& p : inScene) above.push_back({p.x, p.y + 0.6f, p.z});
+  offline::DiffuseParticles white{.positions = above,
                                   .velocities = std::vector<Float3>(positions.size(), {0, 1, 0}),
                                   .ages = std::vector<float>(positions.size(), 1),
                                   .classes = std::vector<WhitewaterClass>(positions.size(), WhitewaterClass::Foam)};
@@ -228,6 +231,19 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
     }
     ASSERT_TRUE(player->show({.positions = positions, .origin = origin, .whitewater = white}));
   }
+  const auto fromOrigin = player->render("final", 160, 90);
+  ASSERT_TRUE(player->show({.positions = inScene, .whitewater = white}));
+  const auto inPlace = player->render("final", 160, 90);
+  ASSERT_TRUE(player->show({.positions = inScene}));
+  const auto without = player->render("final", 160, 90);
+  ASSERT_TRUE(fromOrigin && inPlace && without);
+  const auto difference = [](const offline::Image& a, const offline::Image& b) {
+    double sum = 0;
+    for (size_t k = 0; k < a.rgba.size(); ++k) sum += std::abs(int(a.rgba[k]) - int(b.rgba[k]));
+    return sum / double(a.rgba.size());
+  };
+  EXPECT_GT(difference(*inPlace, *without), 0.1);
+  EXPECT_LT(difference(*inPlace, *fromOrigin), 0.05 * difference(*inPlace, *without)) << "whitewater is not relative to the origin";
   EXPECT_FALSE(player->show({.positions = positions, .velocities = {{0, 0, 0}}}));
   EXPECT_FALSE(player->show({.positions = positions, .fluids = {0}}));
   EXPECT_TRUE(player->show({.positions = positions, .fluids = std::vector<uint8_t>(positions.size(), 0)}));
