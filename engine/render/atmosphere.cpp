@@ -10,7 +10,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi, kSphere = 2 * kTurn;
 constexpr double kAirHeight = kAirTop - kGroundRadius;
 
-// Values of the paper's table 1, by wavelength.
+// Values of the paper's table 1, by wavelength; the share that aerosols scatter is that of Bruneton and Neyret (2008).
 constexpr double kRayleigh = 0.013558;                 // at 550 nm; by the fourth power of the wavelength those at 680 and 440 nm
 constexpr double kRayleighScale = 8, kMieScale = 1.2;  // height over which the density falls to 1/e
 constexpr double kMieAlbedo = 3.996 / 4.44;            // share of extinction that is scattering
