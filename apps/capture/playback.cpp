@@ -13,7 +13,7 @@
 #include "capture/video.hpp"
 #include "core/words.hpp"
 #include "fill/ply_reader.hpp"
-#include "rill/offline.hpp"
+#include "rill/player.hpp"
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
 #include "shared/exr.hpp"

@@ -1,4 +1,6 @@
 // Renders given particles.
+#include "rill/player.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,7 +13,6 @@
 #include "offline/painter.hpp"
 #include "offline/picture_run.hpp"
 #include "offline/whitewater_run.hpp"
-#include "rill/offline.hpp"
 
 namespace rill::offline {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "rill/offline.hpp"
+#include "rill/player.hpp"
 #include "support/half_pixels.hpp"
 
 namespace rill::offline {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "end_to_end/simulation_rig.hpp"
+#include "rill/player.hpp"
 
 namespace rill::offline {
 namespace simulation_test {

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "rill/offline.hpp"
+#include "rill/player.hpp"
 #include "shared/ply.hpp"
 #include "support/child_process.hpp"
 #include "support/picture.hpp"
