@@ -3,7 +3,9 @@
 //
 //   auto player = rill::offline::Player::open(scene);
 //   if (!player) return fail(player.error().message);
-//   if (auto ok = player->show({.positions = positions, .velocities = velocities}); !ok) return fail(ok.error().message);
+//   rill::offline::PlayedFrame frame;
+//   frame.positions = {{0.1f, 0.2f, 0.1f}, {0.11f, 0.2f, 0.1f}};
+//   if (auto ok = player->show(frame); !ok) return fail(ok.error().message);
 //   auto image = player->render("final", 1280, 720);  // RGBA, from the top
 #include <cstdint>
 #include <memory>
