@@ -20,8 +20,9 @@ uvec3 regionOf(vec3 x) {
 
 // The region `offset` away, of which each component is -2 .. 2, on the wrapped grid.
 uint regionBeside(uvec3 at, ivec3 offset) {
-  uvec3 counts = regionCounts();
-  return regionIndex((at + 2u * counts + uvec3(offset)) % counts);  // unsigned numbers wrap, so that an offset below 0 takes off
+  ivec3 counts = ivec3(regionCounts()), beside = ivec3(at) + offset;  // of at least 8 regions; a remainder would take far longer
+  beside += counts * (ivec3(lessThan(beside, ivec3(0))) - ivec3(greaterThanEqual(beside, counts)));
+  return regionIndex(uvec3(beside));
 }
 
 // Regions between two along an axis, on the wrapped grid.

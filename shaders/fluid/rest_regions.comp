@@ -66,6 +66,7 @@ void main() {
     if (heldAwake || (!hasNoSums && changed)) region.state = kRegionAwake, region.restShare = 0.0;
   } else {
     region.state = region.particles == 0u ? kRegionEmpty : kRegionAwake;
+    if (control.regionsDue == kRegionsDueAfterRest) region.restShare = 1.0;
     region.restShare = heldAwake || !atRest ? 0.0 : region.restShare + control.regionTime / limits.time;
     if (region.state == kRegionAwake && region.restShare >= 1.0) {
       region.state = kRegionAsleep;

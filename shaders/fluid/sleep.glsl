@@ -4,6 +4,7 @@
 #define RILL_SLEEP_GLSL
 #include "fluid/rest_limits.glsl"
 #include "fluid/time.glsl"
+#include "shared/region_records.h"
 
 const float kRestBodies = 2.0;         // times the limit of the root mean square: the fastest body
 const float kRestPressure = 0.5;       // share of the mean compression by which that of a substep may differ
@@ -43,12 +44,12 @@ bool regionsAreDue() {
 // Regions are looked at when something begins to act.
 void noticeCauses() {
   uint acts = uint(quietTime() <= 0.0);
-  if (acts > control.acts) control.regionsDue = 1u;
+  if (acts > control.acts) control.regionsDue = max(control.regionsDue, kRegionsDue);
   control.acts = acts;
 }
 
 void wake() {
-  if (control.sleep != kAwake) control.regionsDue = 1u;
+  if (control.sleep != kAwake) control.regionsDue = kRegionsDueAfterRest;
   control.sleep = kAwake;
   control.restShare = 0.0;
 }

@@ -9,6 +9,10 @@ RILL_CONST uint kRegionCellsX = 4u;
 RILL_CONST uint kRegionCellsY = 2u;
 RILL_CONST uint kRegionCellsZ = 2u;
 
+// Whether they are to be looked at before the next substep (FluidControl::regionsDue).
+RILL_CONST uint kRegionsDue = 1u;
+RILL_CONST uint kRegionsDueAfterRest = 2u;  // and all were at rest: the whole fluid slept
+
 // State of a region.
 RILL_CONST uint kRegionEmpty = 0u;
 RILL_CONST uint kRegionAwake = 1u;

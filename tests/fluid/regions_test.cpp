@@ -191,6 +191,26 @@ TEST_F(RegionsTest, EndsWhereItWouldWithoutSleep) {
     EXPECT_NEAR(height(as, part * quarter, (part + 1) * quarter), height(bs, part * quarter, (part + 1) * quarter), 0.1 * t.d()) << part;
 }
 
+// Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own.
+TEST_F(RegionsTest, TapWakesItsOwnEndOfAFluidThatSlept) {
+  const Trial t = channel();
+  auto run = start(t);
+  frames(*run, kOpens);
+  EXPECT_EQ(sleeping(*run), t.x.size());
+  const auto regions = regionsOf(run->saved());
+  EXPECT_GT(std::ranges::count(regions, kRegionAwake, &RegionRecord::state), 0) << "not what this test is about";
+  frames(*run, 0.05);
+  const FluidSnapshot s = run->saved();
+  ASSERT_EQ(s.rest.size(), s.id.size());
+  size_t awake = 0;
+  for (size_t i = 0; i < s.rest.size(); ++i) {
+    if (s.rest[i] != kZoneMoves) continue;
+    ++awake;
+    EXPECT_TRUE(s.position[i].x < 0.4F || s.position[i].x > 1.2F) << i << ": " << s.position[i].x << " m; the grid wraps around";
+  }
+  EXPECT_GT(awake, 0u);
+}
+
 TEST_F(RegionsTest, GravityWakesAllAtItsTime) {
   Trial t = channel();
   t.scene.gravity_changes = {{1000, {1, -9.81, 0}}};
