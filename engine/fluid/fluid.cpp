@@ -106,6 +106,8 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->emitted.resize(impl->setup.emitters.size());
   impl->drained.resize(impl->setup.drains.size());
   impl->bodyRecords = impl->setup.bodies;
+  const bool allLoads = desc.loads || probesLoads(scene);
+  for (SolidRecord& solid : impl->setup.solids) solid.holdsAwake = allLoads || solid.keyCount > 0 || solid.body != kNoBody ? 1 : 0;
   impl->bodyMotions.resize(impl->bodyRecords.size());
   impl->takeBodies(std::as_bytes(std::span(impl->setup.bodies)));
 

@@ -8,7 +8,7 @@ void FluidImpl::declareMeasure(Graph& graph, Pending& pending) {
   ++recording_.sorts;
   beginSection();
   alias(Place, Position);
-  declare(graph, FluidPass::MeasureDisplaced, Start::Figures, DisplacePush{});
+  declare(graph, FluidPass::MeasureDisplaced, Start::Figures, DisplacePush{0, 1});
   declare(graph, FluidPass::MeasureMouths, Start::Figures, MouthDensityPush{0});
   BufferRef& histogram = ref(Histogram) = graph.create(rowOf(Histogram).label, {arrayBytes(Histogram, arrayShape(setup))});
   addFill(graph, "clear histogram", {{&histogram, 0}});

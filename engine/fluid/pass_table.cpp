@@ -29,6 +29,7 @@ bool tenseAtSolids(const FluidSetup& s) { return tense(s) && solids(s); }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
 bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
+bool regionsAtSolids(const FluidSetup& s) { return regions(s) && solids(s); }
 bool loadsAsleep(const FluidSetup& s) { return sleeps(s) && (loads(s) || probesPressure(s)); }
 bool diffuses(const FluidSetup& s) { return s.params.maxDiffusionRate > 0; }
 bool stepsOfDiffusion(const FluidSetup& s) { return diffuses(s) && s.params.diffusionStages > 1; }
@@ -63,6 +64,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
 
     {P::Emit, "emit", "fluid/emit", E::Births, kRebuild, kEmits},
     {P::RestMotion, "motion of regions", "fluid/rest_motion", E::Particles, kRebuild, kRegions},
+    {P::RestSolids, "regions at solids", "fluid/rest_solids", E::NearSolids, kRebuild, {regionsAtSolids}},
     {P::RestRegions, "regions at rest", "fluid/rest_regions", E::Regions, kRebuild, {regions}},
     {P::RestWake, "wake regions", "fluid/rest_wake", E::Regions, kRebuild, {regions}},
     {P::RestZones, "zones of regions", "fluid/rest_zones", E::Regions, kRebuild, {regions}},

@@ -24,6 +24,7 @@ enum class FluidPass : uint8_t {
   // A rebuild.
   Emit,
   RestMotion,
+  RestSolids,
   RestRegions,
   RestWake,
   RestZones,

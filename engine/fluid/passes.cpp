@@ -43,7 +43,7 @@ void FluidImpl::declareRebuild(Graph& graph) {
   beginSection();
   declare(graph, FluidPass::PlanEmission, Start::Always, EmissionPush{0, 1, 0});
   declare(graph, FluidPass::Emit, Start::Rebuild);
-  for (FluidPass pass : {FluidPass::RestMotion, FluidPass::RestRegions, FluidPass::RestWake, FluidPass::RestZones})
+  for (FluidPass pass : {FluidPass::RestMotion, FluidPass::RestSolids, FluidPass::RestRegions, FluidPass::RestWake, FluidPass::RestZones})
     declare(graph, pass, Start::Rebuild);
   const Gate gate{ref(Commands), sortCommand_};
   const SortTargets targets{.order = {}, .start = ref(CellStart), .keys = {}};

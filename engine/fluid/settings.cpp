@@ -113,9 +113,11 @@ double meltingTime(const Scene& scene) {
 
 bool hasWalls(const Scene& scene) { return scene.domain && scene.domain->open != kEverySide; }
 
-bool measuresLoads(const Scene& scene) {
-  return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); }) || bodyCount(scene) > 0;
+bool probesLoads(const Scene& scene) {
+  return std::ranges::any_of(scene.probes, [](const Probe& probe) { return !probe.load.empty(); });
 }
+
+bool measuresLoads(const Scene& scene) { return probesLoads(scene) || bodyCount(scene) > 0; }
 
 bool removes(const Scene& scene) { return hasEmitters(scene) || !scene.drains.empty() || hasRemovingSides(scene); }
 

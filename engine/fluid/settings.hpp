@@ -112,6 +112,7 @@ bool hasWalls(const Scene& scene);
 /// Whether a scene's substeps start from the multipliers of the ones before.
 bool startsWarm(const Scene& scene);
 
+bool probesLoads(const Scene& scene);
 /// Whether a probe or a body needs loads on solids.
 bool measuresLoads(const Scene& scene);
 

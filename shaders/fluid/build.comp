@@ -295,7 +295,7 @@ void main() {
   velocity[i] = vec4(moving.xyz, 1.0);
   if (WARM) warm[i] = moving.w;
   id[i] = own;
-  if (SOLIDS && !asleep && listNear(i, x)) head |= kNearSolidsBit;
+  if (SOLIDS && listNear(i, x)) head |= kNearSolidsBit;
   if (asleep) head |= kAsleepBit;
   if (LIST_CAPACITY != 0u || SOLIDS || MOUTHS || REGIONS) listHead[i] = head;
 }

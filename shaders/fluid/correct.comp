@@ -71,16 +71,8 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   return kept < 1.0 ? planned + kept * pushed : difference;
 }
 
-// Of a particle that sleeps: what would move it, for rest_motion.comp.
-void storeAcceleration(uint i) {
-  warmDisplacement *= inverseMass * unit * params.gradientScale;
-  if (WARM) warmAcceleration[i] = vec4(warmDisplacement / (control.warmStep * control.warmStep), 0.0);
-}
-
-// Speed of the particle (m/s), whose substep ends here.
-float endSubstep(uint i, uint head) {
-  correction *= unit * params.gradientScale;
-  warmDisplacement *= unit * params.gradientScale;
+// What solids and mouths add to the corrections.
+void addSolids(uint i, uint head) {
   vec3 displaced = SOLIDS || MOUTHS ? unit * displacedAt(i, head).xyz : vec3(0.0);
   if (SOLIDS) {
     SolidScale scale = solidScaleAt(i, head);  // see docs/notes/walls-and-solids.md
@@ -92,6 +84,20 @@ float endSubstep(uint i, uint head) {
     correction += own.x * displaced;
     warmDisplacement += own.y * displaced;
   }
+}
+
+// Of a particle that sleeps: what would move it, for rest_motion.comp.
+void storeAcceleration(uint i, uint head) {
+  warmDisplacement *= unit * params.gradientScale;
+  addSolids(i, head);
+  if (WARM) warmAcceleration[i] = vec4(inverseMass * warmDisplacement / (control.warmStep * control.warmStep), 0.0);
+}
+
+// Speed of the particle (m/s), whose substep ends here.
+float endSubstep(uint i, uint head) {
+  correction *= unit * params.gradientScale;
+  warmDisplacement *= unit * params.gradientScale;
+  addSolids(i, head);
   correction *= inverseMass;
   warmDisplacement *= inverseMass;
 
@@ -164,11 +170,12 @@ void main() {
   inverseMass = inverseMassOf(fluid);
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
-  bool looks = moves || (inRange && control.regionTime <= 1.01 * control.step);  // asleep: once for each list
+  bool looks = moves || (inRange && gathersAsleep());
   visitNeighbors(i, looks ? head : 0u, local, looks);
   // No lane leaves before the maximum: those that are left need not come together again.
   float speed = moves ? endSubstep(i, head) : 0.0;
-  if (looks && !moves) storeAcceleration(i);
+  if (REGIONS && looks && !moves) storeAcceleration(i, head);
+  if (REGIONS && LOADS && inRange && !moves && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = vec2(0.0);
   float fastest = subgroupMax(speed);
   float motion = subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion));
   if (SOLIDS && inRange && i == 0u) {  // for collide.comp; the next substep counts anew

@@ -89,6 +89,7 @@ void main() {
   bool inRange = n < sums.nearSolids;
   NearSolids near = nearSolidsOf(inRange ? n : 0u);
   uint i = near.particle;
+  inRange = inRange && i < control.solved;
   vec3 x = uintBitsToFloat(workAt(i).xyz);
   vec2 multipliers = uintBitsToFloat(nearMultipliersAt(i));
   if (control.phase != kPhaseAdvancing) multipliers.x = 0.0;

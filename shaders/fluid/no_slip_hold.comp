@@ -23,6 +23,7 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
+  if (near.particle >= control.solved) return;
   uvec4 particle = workAt(near.particle);
   vec3 x = uintBitsToFloat(particle.xyz);
   Adhesion a = Adhesion(0.0, vec3(0.0));

@@ -40,6 +40,7 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
+  if (near.particle >= control.solved) return;
   uvec4 particle = workAt(near.particle);
   uint fluid = fluidOfWork(particle);
   float mobile = mobility(near.particle, fluid);

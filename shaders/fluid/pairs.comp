@@ -50,6 +50,7 @@ void main() {
   uint n = clusterInvocation();
   uint i = nearSolidsAt(NEAR_QUADS * min(n, max(sums.nearSolids, 1u) - 1u)).x;
   bool inRange = n < sums.nearSolids && i >= push.first && i < min(push.last, control.solved);
+  inRange = inRange && (!sleeps(headOf(i, inRange)) || gathersAsleep());
   if (!inRange) i = params.capacity;
   uvec4 particle = particleAt(i);
   here = uintBitsToFloat(particle.xyz);

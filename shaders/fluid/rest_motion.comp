@@ -16,10 +16,11 @@ READ_UINT(8, meshWord)
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 
-bool isNearSolid(vec3 x) {
+// Of a particle without a list of the solids near it; rest_solids.comp is for the others.
+bool isHeldAwake(vec3 x) {
   for (uint k = 0u; SOLIDS && k < params.solidCount; ++k) {
     vec3 normal;
-    if (isBeyond(centerOf(solids[k].pose), solids[k].radius, x, params.nearLimit)) continue;
+    if (solids[k].holdsAwake == 0u || isBeyond(centerOf(solids[k].pose), solids[k].radius, x, params.nearLimit)) continue;
     if (surfaceDistance(solids[k].shape, localPoint(solids[k].pose, x), normal) < params.nearLimit) return true;
   }
   return false;
@@ -36,7 +37,7 @@ void main() {
   bool isBehind = i >= control.solved && v == vec3(0.0);  // in a region that sleeps; what was just born moves
   if (SOLIDS) {
     bool hasList = i < control.solved && (listHeadAt(i) & kAsleepBit) == 0u;
-    if (hasList ? (listHeadAt(i) & kNearSolidsBit) != 0u : isNearSolid(x)) atomicOr(regions[r].nearSolid, 1u);
+    if (!hasList && isHeldAwake(x)) atomicOr(regions[r].nearSolid, 1u);
   }
   if (isBehind) return;
 

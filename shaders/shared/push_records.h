@@ -28,6 +28,7 @@ struct ControlPush {
 
 struct DisplacePush {
   uint begins;         // 1: the first iteration of a substep
+  uint measures;       // 1: for figures
 };
 
 struct MouthDensityPush {

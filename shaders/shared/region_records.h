@@ -31,7 +31,7 @@ struct RegionRecord {
   uint fastest;                           // bits of the largest speed, m/s
   int driftX, driftY, driftZ;             // velocities over the speed of a fall through a spacing, in kRegionUnit
   int forceX, forceY, forceZ;             // warm-start acceleration plus gravity, over gravity, in kRegionUnit
-  uint nearSolid;                         // 1: a solid is near a particle
+  uint nearSolid;                         // 1: a solid that holds fluid awake is near a particle
   // State.
   uint state;
   uint woken;                             // 1: by a neighbor; the next rebuild makes it awake

@@ -44,7 +44,8 @@ struct SolidRecord {
   uint firstKey, keyCount;     // entries of the keyframe buffer
   uint driven;                 // 1: two keyframes, its poses at the begin and at the end of the advance, with seconds since its begin
   PoseRecord base;             // before any motion
-  float unused[3];
+  uint holdsAwake;             // 1: fluid near it does not fall asleep on its own
+  float unused[2];
 };
 RILL_CONST uint kSolidQuads = 12u;  // of a SolidRecord, four words each
 

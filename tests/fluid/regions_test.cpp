@@ -2,78 +2,12 @@
 // without sleep.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 
-#include "fluid/rig.hpp"
-#include "fluid/sleep.hpp"
-#include "fluid/snapshot.hpp"
+#include "fluid/regions_fixture.hpp"
 
 namespace rill::test {
 namespace regions_test {
-
-constexpr double kFrame = 1.0 / 60;
-constexpr glm::ivec3 kRoom = {64, 16, 4};
-constexpr int kLayers = 6;
-constexpr double kOpens = 10;  // s, the tap: all sleeps by then
-
-/// A long tank with a tap over its low end. Its lattice is stable, so that it is at rest soon.
-Trial channel() {
-  Trial t = trial();
-  t.scene.fluid.spacing = 0.02;
-  t.scene.fluid.smoothing_ratio = 2;
-  t.scene.solver = SolverSettings{};
-  t.scene.solver.sleep = true;
-  setWalls(t, glm::dvec3(kRoom) * t.d());
-  t.step = kFrame;
-  t.x = block({kRoom.x, kLayers, kRoom.z}, t.d());
-  t.capacity = static_cast<uint32_t>(t.x.size()) + 200;
-  t.scene.emitters = {{.mouth = DiscMouth{.center = {0.06, 0.2, 0.04}, .radius = 0.02, .normal = {0, -1, 0}},
-                       .flow = 1e-4,
-                       .from = kOpens,
-                       .until = kOpens + 1.5}};
-  return t;
-}
-
-std::vector<RegionRecord> regionsOf(const FluidSnapshot& s) {
-  std::vector<RegionRecord> all(s.regions.size() / kRegionWords);
-  std::memcpy(all.data(), s.regions.data(), s.regions.size() * 4);
-  return all;
-}
-
-FluidControl controlOf(const FluidSnapshot& s) {
-  FluidControl control;
-  std::memcpy(&control, s.control.data(), sizeof control);
-  return control;
-}
-
-double height(const Snapshot& s, double from, double until) {
-  double sum = 0, count = 0;
-  for (const glm::dvec3& x : s.x)
-    if (x.x >= from && x.x < until) sum += x.y, ++count;
-  return 2 * sum / count;
-}
-
-class RegionsTest : public FluidTest {
- protected:
-  static void frames(Run& run, double seconds) {
-    for (int frame = 0; frame < std::lround(seconds / kFrame); ++frame) run.advance(kFrame, 21);
-  }
-  static uint64_t sleeping(Run& run) { return run.stats().sleeping.value_or(0); }
-  /// Of the channel, while the tap runs: a part of it sleeps.
-  const FluidSnapshot& partlyAsleep() {
-    static const FluidSnapshot state = afterOpening();
-    return state;
-  }
-  FluidSnapshot afterOpening() {
-    auto run = start(channel());
-    frames(*run, kOpens + 0.3);
-    const uint64_t asleep = sleeping(*run);
-    EXPECT_GT(asleep, 0u);
-    EXPECT_LT(asleep, run->fluid().count());
-    return run->saved();
-  }
-};
 
 // What moves finds all of its neighbors among the particles that substeps are over, which the zones are made for.
 TEST_F(RegionsTest, SubstepsAreOverWhatMovesAndWhatIsNearIt) {
@@ -168,28 +102,7 @@ TEST_F(RegionsTest, SavingAndGoingOnChangesNothing) {
 }
 
 // The tap raises the level by most of a layer, so slowly that hardly anything moves: pressure has to wake what sleeps.
-TEST_F(RegionsTest, EndsWhereItWouldWithoutSleep) {
-  Trial t = channel();
-  FluidSnapshot state = partlyAsleep();
-  auto sleeps = start(t, &state);
-  t.scene.solver.sleep = false;
-  wake(state);
-  state.regions.clear();
-  auto never = start(t, &state);
-  for (int k = 0; k < 28 && (k < 8 || sleeping(*sleeps) < sleeps->fluid().count() / 2); ++k) {
-    frames(*sleeps, 0.5);
-    frames(*never, 0.5);
-  }
-  EXPECT_GT(sleeping(*sleeps), sleeps->fluid().count() / 2 - 1);
-  const FluidStats a = sleeps->stats(), b = never->stats();
-  EXPECT_EQ(a.particles, b.particles);
-  EXPECT_GT(a.particles, t.x.size());
-  EXPECT_NEAR(a.potential_J, b.potential_J, 0.005 * b.potential_J);
-  const Snapshot as = sleeps->snapshot(), bs = never->snapshot();
-  const double quarter = kRoom.x / 4 * t.d();
-  for (int part = 0; part < 4; ++part)
-    EXPECT_NEAR(height(as, part * quarter, (part + 1) * quarter), height(bs, part * quarter, (part + 1) * quarter), 0.1 * t.d()) << part;
-}
+TEST_F(RegionsTest, EndsWhereItWouldWithoutSleep) { expectEndWithoutSleep(channel(), partlyAsleep()); }
 
 // Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own.
 TEST_F(RegionsTest, TapWakesItsOwnEndOfAFluidThatSlept) {
@@ -239,56 +152,6 @@ TEST_F(RegionsTest, HostWakesBySnapshot) {
   EXPECT_EQ(sleeping(*run), 0u);
   const Snapshot after = run->snapshot();
   for (uint32_t id : slept) EXPECT_LT(glm::length(after.v[id]), 0.02) << id;
-}
-
-// Fluid beside a solid stays awake: it may begin to move.
-TEST_F(RegionsTest, FluidAtSolidsStaysAwake) {
-  Trial t = channel();
-  t.scene.emitters.clear();
-  t.capacity = 0;
-  t.scene.solids = {slab({0.2, -0.1, -0.1}, {0.24, 0.4, 0.4})};
-  t.x.clear();
-  addOutsideSolids(t, block({kRoom.x, kLayers, kRoom.z}, t.d()));
-  auto run = start(t);
-  FluidSnapshot s;
-  const auto asleep = [&] { return s.rest.size() - std::ranges::count(s.rest, uint32_t{kZoneMoves}); };
-  for (int k = 0; k < 60 && asleep() < t.x.size() / 3; ++k) {
-    frames(*run, 0.25);
-    s = run->saved();
-  }
-  size_t awake = 0;
-  for (size_t i = 0; i < s.rest.size(); ++i) {
-    const bool beside = std::abs(s.position[i].x - 0.22F) < 0.06F;
-    awake += beside;
-    EXPECT_TRUE(!beside || s.rest[i] == kZoneMoves) << i;
-  }
-  EXPECT_GT(awake, 0u);
-  EXPECT_GE(asleep(), t.x.size() / 3);
-}
-
-// A box sinks into what sleeps: it wakes before the box is there, and bears it as water does.
-TEST_F(RegionsTest, SolidThatComesWakesWhatItComesTo) {
-  Trial t = channel();
-  t.scene.emitters.clear();
-  t.capacity = 0;
-  t.loads = true;
-  Solid box = slab({1.0, 0.2, 0.02}, {1.06, 0.26, 0.06});
-  box.motion = {{kOpens, {0, 0, 0}}, {kOpens + 0.5, {0, -0.12, 0}}};
-  t.scene.solids = {box};
-  auto run = start(t);
-  frames(*run, kOpens);
-  EXPECT_EQ(sleeping(*run), t.x.size());
-  double largest = 0;
-  uint64_t least = t.x.size();
-  for (int frame = 0; frame < 36; ++frame) {
-    frames(*run, kFrame);
-    const auto& force = run->fluid().solidLoads()[0].force;
-    largest = std::max(largest, std::hypot(force[0], force[1], force[2]));
-    least = std::min(least, sleeping(*run));
-  }
-  EXPECT_LT(least, t.x.size());
-  EXPECT_GT(largest, 0.2);
-  EXPECT_LT(largest, 10) << "N; its buoyancy is 1.4";
 }
 
 TEST_F(RegionsTest, ChecksRegionsOfASnapshot) {

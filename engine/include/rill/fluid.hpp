@@ -45,7 +45,9 @@ struct FluidDesc {
   /// Particles that there is room for; at least those at the start, for which 0 stands.
   uint32_t capacity = 0;
   bool storageReads = false;  ///< never use texel buffers to read arrays (slower on most CPU drivers)
-  bool loads = false;         ///< measure loads on solids, as a scene with a probe of a load does: FluidState::loads, Fluid::solidLoads()
+  /// Measure loads on solids, as a scene with a probe of a load does: FluidState::loads, Fluid::solidLoads(). Fluid at solids then does
+  /// not sleep in regions (solver.sleep). Loads that are measured for bodies alone leave out what sleeps at solids at rest.
+  bool loads = false;
   /// Fewer and larger passes, with the same results: less latency on GPUs, slower on CPU drivers. Without a value: on all but CPU devices.
   std::optional<bool> mergePasses = {};
 };

@@ -1,0 +1,142 @@
+// Regions of a fluid beside solids: where they sleep, what holds them awake, and that what sleeps is as it would be awake.
+#include <algorithm>
+#include <cmath>
+
+#include "fluid/regions_fixture.hpp"
+
+namespace rill::test {
+namespace regions_test {
+
+/// A shoal in the channel, 2.5 spacings high.
+constexpr float kShoal = 0.05F;
+Trial channelWithShoal() {
+  Trial t = channel();
+  t.scene.solids = {slab({0.3, -0.1, -0.1}, {0.56, kShoal, 0.2})};
+  t.x.clear();
+  addOutsideSolids(t, block({kRoom.x, kLayers, kRoom.z}, t.d()));
+  t.capacity = static_cast<uint32_t>(t.x.size()) + 200;
+  return t;
+}
+
+Trial channelWithPillar() {
+  Trial t = channel();
+  t.scene.emitters.clear();
+  t.capacity = 0;
+  t.scene.solids = {slab({0.2, -0.1, -0.1}, {0.24, 0.4, 0.4})};
+  t.x.clear();
+  addOutsideSolids(t, block({kRoom.x, kLayers, kRoom.z}, t.d()));
+  return t;
+}
+
+/// How many particles sleep: of those at the pillar, which are `beside` it, and of all.
+struct Asleep {
+  size_t beside = 0, atPillar = 0, all = 0;
+};
+
+class RegionsAtSolidsTest : public RegionsTest {
+ protected:
+  const FluidSnapshot& shoalPartlyAsleep() {
+    static const FluidSnapshot state = afterOpening(channelWithShoal());
+    return state;
+  }
+  /// Once a third of all sleep, or after 15 s.
+  static Asleep asleepAtPillar(Run& run) {
+    Asleep found;
+    for (int k = 0; k < 60 && 3 * found.all < run.fluid().count(); ++k) {
+      frames(run, 0.25);
+      const FluidSnapshot s = run.saved();
+      found = {};
+      for (size_t i = 0; i < s.rest.size(); ++i) {
+        const bool beside = std::abs(s.position[i].x - 0.22F) < 0.06F, asleep = s.rest[i] != kZoneMoves;
+        found.beside += beside;
+        found.atPillar += beside && asleep;
+        found.all += asleep;
+      }
+    }
+    EXPECT_GT(found.beside, 0u);
+    EXPECT_GE(3 * found.all, run.fluid().count());
+    return found;
+  }
+};
+
+// It may begin to move, or its load is that of fluid awake.
+TEST_F(RegionsAtSolidsTest, FluidStaysAwakeAtSolidsThatMoveOrBearLoads) {
+  Trial driven = channelWithPillar(), loaded = channelWithPillar();
+  driven.scene.solids[0].driven = 1;
+  loaded.loads = true;
+  EXPECT_EQ(asleepAtPillar(*start(driven)).atPillar, 0u);
+  EXPECT_EQ(asleepAtPillar(*start(loaded)).atPillar, 0u);
+}
+
+TEST_F(RegionsAtSolidsTest, FluidSleepsAtSolidsThatCannotMove) {
+  const Asleep found = asleepAtPillar(*start(channelWithPillar()));
+  EXPECT_GT(2 * found.atPillar, found.beside);
+}
+
+// Figures see what sleeps at solids as what does not.
+TEST_F(RegionsAtSolidsTest, DensityAtSolidsIsThatOfFluidAwake) {
+  const Trial t = channelWithShoal();
+  auto run = start(t, &shoalPartlyAsleep());
+  const FluidSnapshot& s = shoalPartlyAsleep();
+  run->stats();
+  const Snapshot& now = run->measured();
+  size_t asleep = 0;
+  for (size_t i = 0; i < s.rest.size(); ++i) {
+    const Float3& x = s.position[i];
+    if (s.rest[i] == kZoneMoves || x.x < 0.32F || x.x > 0.54F || x.y > kShoal + 1.5F * 0.02F) continue;
+    ++asleep;
+    EXPECT_NEAR(now.density[s.id[i]], 1, 0.03) << s.id[i];
+  }
+  EXPECT_GT(asleep, 20u);
+}
+
+TEST_F(RegionsAtSolidsTest, EndsWhereItWouldWithoutSleep) { expectEndWithoutSleep(channelWithShoal(), shoalPartlyAsleep()); }
+
+// Also where the checkpoint has no lists, since they were due.
+TEST_F(RegionsAtSolidsTest, SavingAndGoingOnChangesNothing) {
+  const Trial t = channelWithShoal();
+  auto whole = start(t, &shoalPartlyAsleep());
+  FluidSnapshot state = shoalPartlyAsleep();
+  int due = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    frames(*whole, kFrame);
+    auto run = start(t, &state);
+    frames(*run, kFrame);
+    state = run->saved();
+    due += !hasNeighbors(state);
+  }
+  EXPECT_GT(due, 0);
+  EXPECT_LT(due, 20);
+  FluidSnapshot saved = whole->saved();
+  const size_t nearMouths = offsetof(FluidSums, nearMouths) / 4;  // after a checkpoint all may be near, until the next rebuild
+  saved.sums[nearMouths] = state.sums[nearMouths];
+  EXPECT_EQ(saved, state);
+}
+
+// A box sinks into what sleeps: it wakes before the box is there, and bears it as water does.
+TEST_F(RegionsAtSolidsTest, SolidThatComesWakesWhatItComesTo) {
+  Trial t = channel();
+  t.scene.emitters.clear();
+  t.capacity = 0;
+  t.loads = true;
+  Solid box = slab({1.0, 0.2, 0.02}, {1.06, 0.26, 0.06});
+  box.motion = {{kOpens, {0, 0, 0}}, {kOpens + 0.5, {0, -0.12, 0}}};
+  t.scene.solids = {box};
+  auto run = start(t);
+  frames(*run, kOpens);
+  EXPECT_EQ(sleeping(*run), t.x.size());
+  double largest = 0;
+  uint64_t least = t.x.size();
+  for (int frame = 0; frame < 36; ++frame) {
+    frames(*run, kFrame);
+    const auto& force = run->fluid().solidLoads()[0].force;
+    largest = std::max(largest, std::hypot(force[0], force[1], force[2]));
+    least = std::min(least, sleeping(*run));
+  }
+  EXPECT_LT(least, t.x.size());
+  EXPECT_GT(largest, 0.2);
+  EXPECT_LT(largest, 10) << "N; its buoyancy is 1.4";
+}
+
+}  // namespace regions_test
+}  // namespace rill::test
