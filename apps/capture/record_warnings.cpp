@@ -65,7 +65,7 @@ std::vector<std::string> Record::warnings() const {
                        roundedNumber(last.emitterBlocked_s) + " s");
   else if (last.emitterBlocked_s > 0)
     warnings.push_back("warning: emitters were blocked for " + roundedNumber(last.emitterBlocked_s) +
-                       " s: a part of a mouth was in a solid or behind a wall");
+                       " s: a mouth, or a part of one, was in a solid or behind a wall");
   if (last.nonFinite > 0)
     warnings.push_back("warning: " + grouped(last.nonFinite) + (last.nonFinite == 1 ? " particle is" : " particles are") +
                        " inactive: the position or velocity was not finite");

@@ -52,13 +52,14 @@ std::string textOf(const Cover& cover, const Scene& scene, bool moves) {
 
 std::vector<std::string> blockedMouths(const Scene& scene, double spacing) {
   std::vector<std::string> warnings;
-  if (scene.emitters.empty()) return warnings;
+  const std::vector<Emitter> emitters = emittersOf(scene);
+  if (emitters.empty()) return warnings;
   const InsideSolids solids(scene.solids, spacing);
-  for (size_t i = 0; i < scene.emitters.size(); ++i) {
-    const Emitter& emitter = scene.emitters[i];
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    const Emitter& emitter = emitters[i];
     const Cover cover = coverOf(mouthAt(emitter, 0), scene, solids, spacing);
     if (cover.walls || !cover.solids.empty())
-      warnings.push_back(elementPath("emitters", i) + ": " + textOf(cover, scene, emitter.motion.size() > 1));
+      warnings.push_back(emitterKey(scene, i) + ": " + textOf(cover, scene, emitter.motion.size() > 1));
   }
   return warnings;
 }

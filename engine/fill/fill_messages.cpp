@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/words.hpp"
-#include "fill/blocked_mouths.hpp"
+#include "fill/flow_warnings.hpp"
 #include "fill/host_memory.hpp"
 
 namespace rill {
@@ -85,11 +85,13 @@ void addPrecisionWarning(const Scene& scene, const ParticleSet& set, const FillB
                      roundedNumber(step) + " m, more than a thousandth of the spacing " + roundedNumber(scene.fluid.spacing) + " m");
 }
 
-void addMouthWarnings(const Scene& scene, ParticleSet& set) {
-  const std::vector<std::string> all = blockedMouths(scene, set.spacing);
+void addFlowWarnings(const Scene& scene, ParticleSet& set) {
+  Scene spaced = scene;  // by a number of particles it has no spacing
+  spaced.fluid.spacing = set.spacing;
+  const std::vector<std::string> all = flowWarnings(spaced, set.positions.size());
   const size_t shown = std::min(all.size(), kMaxWarnings);
   for (size_t i = 0; i < shown; ++i) set.warnings.push_back(scenePrefix(scene) + all[i]);
-  if (shown < all.size()) set.warnings.push_back("and " + grouped(all.size() - shown) + " more warnings about emitters");
+  if (shown < all.size()) set.warnings.push_back("and " + grouped(all.size() - shown) + " more warnings about emitters and drains");
 }
 
 }  // namespace rill

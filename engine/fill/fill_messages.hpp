@@ -24,7 +24,7 @@ Error fillMemoryError(const Scene& scene, std::span<const FillSource> sources);
 void addFillWarnings(const Scene& scene, std::span<const FillSource> sources, std::vector<std::string>& warnings);
 /// Warns if 32-bit positions relative to the origin are too coarse for the spacing.
 void addPrecisionWarning(const Scene& scene, const ParticleSet& set, const FillBounds& all, std::vector<std::string>& warnings);
-/// Warns of blocked mouths, the first ones.
-void addMouthWarnings(const Scene& scene, ParticleSet& set);
+/// Adds flowWarnings(), the first ones.
+void addFlowWarnings(const Scene& scene, ParticleSet& set);
 
 }  // namespace rill

@@ -7,6 +7,7 @@
 #include "core/mesh_plane.hpp"
 #include "core/overloaded.hpp"
 #include "core/vector_math.hpp"
+#include "core/words.hpp"
 #include "fill/mesh_mouth.hpp"
 
 namespace rill {
@@ -109,6 +110,10 @@ double fastestMouth(const Emitter& emitter) {
     fastest = std::max(fastest, length(pose.velocity) + radius * length(pose.angularVelocity));
   }
   return fastest;
+}
+
+std::string emitterKey(const Scene& scene, size_t emitter) {
+  return emitter < scene.emitters.size() ? elementPath("emitters", emitter) : "domain.inflow";
 }
 
 // The first layer's centers are half a spacing off the wall.

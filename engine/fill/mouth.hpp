@@ -1,5 +1,6 @@
 #pragma once
 // The mouths of emitters as sets of points, and their flow.
+#include <string>
 #include <vector>
 
 #include "rill/scene.hpp"
@@ -25,6 +26,8 @@ double fastestMouth(const Emitter& emitter);
 
 /// The scene's emitters, then that of the domain's inflow.
 std::vector<Emitter> emittersOf(const Scene& scene);
+/// The key of one of them, for messages.
+std::string emitterKey(const Scene& scene, size_t emitter);
 
 /// Points inside the mouth, about `spacing` (m) apart but at most 16 along each direction; at least one. m, scene coordinates.
 std::vector<Double3> samplesOf(const Mouth& mouth, double spacing);

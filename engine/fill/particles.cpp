@@ -168,7 +168,7 @@ Expected<ParticleSet> make(const Scene& scene, uint64_t maxParticles) {
   if (const uint64_t capacity = scene.fluid.capacity, filled = set->positions.size(); capacity > 0 && filled > capacity)
     return fillError(scene, "fluid.capacity: found " + grouped(capacity) + ", but the fills make " + grouped(filled) +
                                 " particles; expected at least as many");
-  addMouthWarnings(scene, *set);
+  addFlowWarnings(scene, *set);
   return set;
 }
 

@@ -8,6 +8,7 @@
 #include "core/overloaded.hpp"
 #include "core/vector_math.hpp"
 #include "core/words.hpp"
+#include "fill/fill_messages.hpp"
 #include "fill/mesh_mouth.hpp"
 #include "fill/mouth.hpp"
 #include "fluid/numbers.hpp"
@@ -36,7 +37,7 @@ float secondsOrNever(const std::optional<double>& time) { return time ? f(std::m
 double fastestFollowed(const Scene& scene) { return scene.solver.cfl * scene.fluid.spacing * scene.solver.max_substeps * 60; }
 
 Error badEmitter(const Scene& scene, const std::string& key, const std::string& what) {
-  return {ErrorKind::BadInput, (scene.file.empty() ? "" : scene.file.string() + ": ") + key + ": " + what};
+  return {ErrorKind::BadInput, scenePrefix(scene) + key + ": " + what};
 }
 
 Expected<void> checkEmitter(const Scene& scene, const Emitter& emitter, const std::string& key, FluidSetup& setup) {
@@ -55,18 +56,21 @@ Expected<void> checkEmitter(const Scene& scene, const Emitter& emitter, const st
     for (const std::string& warning : mesh->mesh->warnings()) setup.warnings.push_back(key + ".mesh: " + warning);
   }
   const double speed = flowOf(emitter) / area, own = fastestMouth(emitter);
+  const bool byFlow = emitter.flow > 0;
+  const auto found = [&](double limit) {  // of a speed above the limit, in terms of the key that is given
+    return std::string(byFlow ? ".flow" : ".speed") + ": found " + roundedNumber(byFlow ? emitter.flow : speed) +
+           (byFlow ? " m^3/s, expected at most " : " m/s, expected at most ") + roundedNumber(byFlow ? limit * area : limit) +
+           (byFlow ? " m^3/s" : " m/s");
+  };
   if (!(speed <= kMaxSpeed))
-    return bad("fluid leaves its mouth at " + roundedNumber(speed) + " m/s; expected at most " + roundedNumber(kMaxSpeed) + " m/s");
+    return badEmitter(scene, key + found(kMaxSpeed), "fluid would leave its mouth at " + roundedNumber(speed) + " m/s");
   if (!(own <= kMaxSpeed))
     return bad("its mouth moves at " + roundedNumber(own) + " m/s; expected at most " + roundedNumber(kMaxSpeed) + " m/s");
   const double most = fastestFollowed(scene);
   if (own > most)
     setup.warnings.push_back(key + ": its mouth moves at " + roundedNumber(own) + " m/s; expected at most " + roundedNumber(most) +
                              " m/s, which solver.cfl and solver.max_substeps can follow: time is dropped");
-  if (speed > most)
-    setup.warnings.push_back(key + ": fluid leaves its mouth at " + roundedNumber(speed) + " m/s; expected at most " + roundedNumber(most) +
-                             " m/s, a flow of " + roundedNumber(most * area) +
-                             " m^3/s, which solver.cfl and solver.max_substeps can follow: time is dropped");
+  if (speed > most) setup.warnings.push_back(key + found(most) + ", which solver.cfl and solver.max_substeps can follow: time is dropped");
   return {};
 }
 
@@ -119,7 +123,7 @@ void setFlow(EmitterRecord& r, const MouthSize& size, double flow) {
 Expected<void> addFlows(const Scene& scene, const Double3& origin, FluidSetup& setup) {
   size_t number = 0;
   for (const Emitter& emitter : emittersOf(scene)) {
-    const std::string key = number < scene.emitters.size() ? elementPath("emitters", number) : "domain.inflow";
+    const std::string key = emitterKey(scene, number);
     ++number;
     if (auto able = checkEmitter(scene, emitter, key, setup); !able) return able;
     const MouthLattice lattice = mouthLattice(emitter.mouth, scene.fluid.spacing);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/words.hpp"
+#include "fill/fill_messages.hpp"
 #include "fluid/flows.hpp"
 #include "fluid/fluid_impl.hpp"
 #include "fluid/room.hpp"
@@ -72,7 +73,14 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, capacity);
-  if (auto fits = checkRoom(device, scene, capacity); !fits) return fits.error();
+  if (auto fits = checkRoom(device, scene, capacity); !fits) {
+    const uint64_t most = maxParticles(device, scene);
+    if (capacity == n || n >= most || fits.error().kind != ErrorKind::TooLarge) return fits.error();
+    return Error{ErrorKind::TooLarge, scenePrefix(scene) + "fluid.capacity: found room for " + grouped(capacity) +
+                                          (scene.fluid.capacity > 0 ? " particles" : " particles, what emitters ask for until duration") +
+                                          ", expected at most " + grouped(most) + ", which \"" + device.info().name +
+                                          "\" has memory for; emitters wait while it is full"};
+  }
 
   StartFigures start{.capacity = static_cast<uint32_t>(capacity)};
   Double3 low = {0, 0, 0}, high = {0, 0, 0};
@@ -95,8 +103,11 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   auto setup = makeFluidSetup(scene, start);
   if (!setup) return setup.error();
   impl->setup = std::move(*setup);
+  for (std::string& warning : impl->setup.warnings) warning.insert(0, scenePrefix(scene));
   impl->setup.loads = !scene.solids.empty() && (desc.loads || measuresLoads(scene));
   if (impl->setup.loads) impl->solidLoads.resize(scene.solids.size());
+  const bool allLoads = desc.loads || probesLoads(scene);
+  for (SolidRecord& solid : impl->setup.solids) solid.holdsAwake = allLoads || solid.keyCount > 0 || solid.body != kNoBody ? 1 : 0;
   impl->pressures.resize(impl->setup.pressureProbes.size());
   impl->takePressures(std::as_bytes(std::span(impl->setup.pressureProbes)));
   impl->setup.mergesPasses = desc.mergePasses.value_or(!impl->device_->isCpu);
@@ -106,8 +117,6 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   impl->emitted.resize(impl->setup.emitters.size());
   impl->drained.resize(impl->setup.drains.size());
   impl->bodyRecords = impl->setup.bodies;
-  const bool allLoads = desc.loads || probesLoads(scene);
-  for (SolidRecord& solid : impl->setup.solids) solid.holdsAwake = allLoads || solid.keyCount > 0 || solid.body != kNoBody ? 1 : 0;
   impl->bodyMotions.resize(impl->bodyRecords.size());
   impl->takeBodies(std::as_bytes(std::span(impl->setup.bodies)));
 

@@ -67,6 +67,7 @@ void addSleep(const Scene& scene, double room, FluidSetup& setup) {
   if (!scene.solver.sleep) return;
   if (!(strongestGravity(scene) > 0)) {
     setup.whyNoSleep = "no gravity";
+    setup.warnings.push_back("solver.sleep: has no effect without gravity");
     return;
   }
   if (setup.fluids > 1) {

@@ -94,7 +94,7 @@ CheckResult collectFlowNames(const Scene& scene, std::vector<std::string_view>& 
     return {};
   };
   if (scene.domain && scene.domain->inflow) {
-    seen.emplace("inflow", "domain");
+    seen.emplace("inflow", "domain.inflow");
     names.push_back("inflow");
   }
   if (CheckResult fault = collect(scene.emitters, "emitters")) return fault;

@@ -86,7 +86,7 @@ TEST(BlockedMouths, ManyAreSummedUp) {
   const Texts warnings = warningsOf(s);
   ASSERT_EQ(warnings.size(), 21U);
   EXPECT_EQ(warnings[19], "dam: emitters[19]: its mouth is outside the domain's walls; it is blocked");
-  EXPECT_EQ(warnings[20], "and 10 more warnings about emitters");
+  EXPECT_EQ(warnings[20], "and 10 more warnings about emitters and drains");
 }
 
 TEST(BlockedMouths, UseTheSpacingThatParticlesGive) {

@@ -215,7 +215,7 @@ TEST(FlowScene, RejectsInflowsAndOutflowsNamingTheKey) {
       {scene02(R"("domain": {"inflow": {"level": 0.5, "speed": 1}, "outflow": {"side": "-x", "level": 0.5}})"),
        "domain.outflow.side: found the side of the inflow, expected another one"},
       {scene02(R"("domain": {"inflow": {"level": 0.5, "speed": 1}}, "drains": [{"name": "inflow", "box": {}}])"),
-       "drains[0].name: \"inflow\" is also the name of domain; expected unique names among emitters and drains"},
+       "drains[0].name: \"inflow\" is also the name of domain.inflow; expected unique names among emitters and drains"},
   });
 }
 

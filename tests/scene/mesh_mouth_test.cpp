@@ -118,14 +118,14 @@ TEST_F(MeshMouthScene, RejectsTrianglesThatOverlapAndTooManyRows) {
   };
   EXPECT_EQ(messageFor(joined(rectMesh(1, 1), moved(rectMesh(1, 1), 1, 0))), "accepted");
   EXPECT_EQ(messageFor(joined(rectMesh(1, 1), moved(rectMesh(1, 1), 0.5, 0))),
-            "emitters[0].mesh: 50 of 150 points of a layer are in several triangles; expected a mesh that does not overlap itself");
-  EXPECT_EQ(messageFor(rectMesh(1000, 200)).substr(0, 80),
-            "emitters[0]: its mouth takes 2e+07 particles of fluid.spacing a layer; expected ");
+            "jet: emitters[0].mesh: 50 of 150 points of a layer are in several triangles; expected a mesh that does not overlap itself");
+  EXPECT_EQ(messageFor(rectMesh(1000, 200)).substr(0, 85),
+            "jet: emitters[0]: its mouth takes 2e+07 particles of fluid.spacing a layer; expected ");
   MeshData comb;
   for (uint32_t k = 0; k < 10; ++k) comb = joined(comb, moved(rectMesh(0.01, 2000), 0.1 * k, 0));
   comb = joined(comb, moved(rectMesh(3000, 0.01), 0, 2001));
   EXPECT_EQ(messageFor(comb),
-            "emitters[0]: the triangles of its mesh lie in 4e+05 rows of a lattice of fluid.spacing, rows that several are "
+            "jet: emitters[0]: the triangles of its mesh lie in 4e+05 rows of a lattice of fluid.spacing, rows that several are "
             "in counted for each; expected at most 262,144");
 }
 

@@ -1,0 +1,116 @@
+#include "fill/flow_warnings.hpp"
+
+#include <algorithm>
+
+#include "core/overloaded.hpp"
+#include "core/vector_math.hpp"
+#include "core/words.hpp"
+#include "fill/blocked_mouths.hpp"
+#include "fill/mouth.hpp"
+#include "fill/walls.hpp"
+
+namespace rill {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+std::string seconds(double t) { return roundedNumber(t) + " s"; }
+
+bool isIn(const Drain& drain, const Double3& p) {
+  return std::visit(Overloaded{[&](const SphereShape& sphere) { return length(minus(p, sphere.center)) <= sphere.radius; },
+                               [&](const BoxShape& box) {
+                                 for (int a = 0; a < 3; ++a)
+                                   if (p[a] < box.min[a] || p[a] > box.max[a]) return false;
+                                 return true;
+                               }},
+                    drain.shape);
+}
+
+BoxShape boundsOf(const Drain& drain) {
+  if (const auto* box = std::get_if<BoxShape>(&drain.shape)) return *box;
+  const auto& sphere = std::get<SphereShape>(drain.shape);
+  const Double3 reach{sphere.radius, sphere.radius, sphere.radius};
+  return {minus(sphere.center, reach), along(sphere.center, 1, reach)};
+}
+
+void addMouths(const Scene& scene, double spacing, Warnings& warnings) {
+  const std::vector<Emitter> emitters = emittersOf(scene);
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    const Emitter& emitter = emitters[i];
+    if (emitter.from >= scene.duration && scene.fluid.capacity == 0)
+      warnings.push_back(emitterKey(scene, i) + ".from: found " + seconds(emitter.from) +
+                         ", expected a time before the scene's duration of " + seconds(scene.duration) +
+                         ", or fluid.capacity: no room is kept for its fluid");
+    const std::vector<Double3> samples = samplesOf(emitter.mouth, spacing);
+    for (size_t k = 0; k < scene.drains.size(); ++k)
+      if (std::ranges::all_of(samples, [&](const Double3& p) { return isIn(scene.drains[k], p); }))
+        warnings.push_back(emitterKey(scene, i) + ": its mouth is inside " + elementPath("drains", k) +
+                           ", which removes its fluid at once");
+  }
+}
+
+void addDrains(const Scene& scene, double spacing, Warnings& warnings) {
+  const double step = scene.solver.cfl * spacing;  // the largest displacement in a substep
+  for (size_t k = 0; k < scene.drains.size(); ++k) {
+    const BoxShape box = boundsOf(scene.drains[k]);
+    double thickness = box.max.x - box.min.x;
+    bool outside = false;
+    for (int a = 0; a < 3; ++a) {
+      thickness = std::min(thickness, box.max[a] - box.min[a]);
+      if (!scene.domain) continue;
+      outside |= isClosed(*scene.domain, 2 * a) && box.max[a] < scene.domain->min[a];
+      outside |= isClosed(*scene.domain, 2 * a + 1) && box.min[a] > scene.domain->max[a];
+    }
+    if (outside)
+      warnings.push_back(elementPath("drains", k) + ": it is outside the domain's walls; nothing gets there");
+    else if (thickness < step)
+      warnings.push_back(elementPath("drains", k) + ": it is " + roundedNumber(thickness) + " m thick; expected at least " +
+                         roundedNumber(step) + " m, what a particle goes in a substep (solver.cfl): fluid passes through it");
+  }
+}
+
+void addLevels(const Scene& scene, double spacing, Warnings& warnings) {
+  if (!scene.domain) return;
+  const auto add = [&](const auto& flow, const std::string& key) {
+    if (flow && flow->level < spacing)
+      warnings.push_back(key + ".level: found " + roundedNumber(flow->level) + " m, expected at least fluid.spacing, " +
+                         roundedNumber(spacing) + " m, the height of a layer");
+  };
+  add(scene.domain->inflow, "domain.inflow");
+  add(scene.domain->outflow, "domain.outflow");
+}
+
+/// A domain without any way out that is full before its emitters close. What solids take of it does not count.
+void addOverflow(const Scene& scene, uint64_t filled, double spacing, Warnings& warnings) {
+  const std::vector<Emitter> emitters = emittersOf(scene);
+  if (emitters.empty() || !scene.domain || scene.domain->open != 0 || scene.domain->outflow || !scene.drains.empty()) return;
+  const Double3 size = minus(scene.domain->max, scene.domain->min);
+  const double room = size.x * size.y * size.z, particle = spacing * spacing * spacing;
+  if (scene.fluid.capacity > 0 && static_cast<double>(scene.fluid.capacity) * particle <= (1 + kWallSlack) * room) return;
+  const auto volumeAt = [&](double t) {
+    double volume = static_cast<double>(filled) * particle;
+    for (const Emitter& emitter : emitters)
+      volume += flowOf(emitter) * std::max(std::min(emitter.until.value_or(t), t) - emitter.from, 0.0);
+    return volume;
+  };
+  if (!(volumeAt(scene.duration) > (1 + kWallSlack) * room)) return;
+  double before = 0, after = scene.duration;
+  for (int k = 0; k < 60; ++k) (volumeAt((before + after) / 2) > room ? after : before) = (before + after) / 2;
+  warnings.push_back("emitters: they have filled the closed domain after " + seconds(after) + " and go on, until its duration of " +
+                     seconds(scene.duration) + " with " + roundedNumber(volumeAt(scene.duration) / room) +
+                     " times its volume; expected a drain, an outflow, an open side or a smaller fluid.capacity");
+}
+
+}  // namespace
+
+Warnings flowWarnings(const Scene& scene, uint64_t filled) {
+  const double spacing = scene.fluid.spacing;
+  Warnings warnings = blockedMouths(scene, spacing);
+  addMouths(scene, spacing, warnings);
+  addDrains(scene, spacing, warnings);
+  addLevels(scene, spacing, warnings);
+  addOverflow(scene, filled, spacing, warnings);
+  return warnings;
+}
+
+}  // namespace rill

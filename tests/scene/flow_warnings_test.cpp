@@ -1,0 +1,98 @@
+// Warnings about emitters, drains, inflow and outflow that cannot do what they are given for.
+#include "support.hpp"
+
+namespace rill::test {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// A closed tank of 1 m^3 at a spacing of 0.1 m, with a tap of 0.01 m^3/s over 10 s.
+Scene tankWithTap() {
+  Scene s;
+  s.name = "tank";
+  s.fluid.spacing = 0.1;
+  s.domain = Domain{{0, 0, 0}, {1, 1, 1}};
+  s.duration = 10;
+  s.emitters = {{.mouth = DiscMouth{.center = {0.5, 0.8, 0.5}, .radius = 0.1}, .flow = 0.01}};
+  return s;
+}
+
+Lines flowWarningsOf(Scene s) { return particles(s).warnings; }
+
+TEST(FlowWarnings, NoneAboutWhatWorks) {
+  Scene s = tankWithTap();
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+  s.drains = {{.shape = BoxShape{{0, 0, 0}, {1, 0.1, 1}}}, {.shape = SphereShape{{0.5, 0, 0.5}, 0.2}}};
+  s.domain->outflow = Outflow{Axis::PlusX, 0.2};
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+}
+
+TEST(FlowWarnings, DrainsThatNothingReaches) {
+  Scene s = tankWithTap();
+  s.drains = {{.shape = BoxShape{{1.1, 0, 0}, {1.4, 1, 1}}}, {.shape = SphereShape{{0.5, -0.3, 0.5}, 0.2}}};
+  EXPECT_EQ(flowWarningsOf(s), (Lines{"tank: drains[0]: it is outside the domain's walls; nothing gets there",
+                                      "tank: drains[1]: it is outside the domain's walls; nothing gets there"}));
+  s.domain->open = 0b110;  // +x and -y
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+}
+
+TEST(FlowWarnings, DrainsThinnerThanAStep) {
+  Scene s = tankWithTap();
+  s.drains = {{.shape = BoxShape{{0, 0.1, 0}, {1, 0.101, 1}}}, {.shape = SphereShape{{0.5, 0.3, 0.5}, 0.001}}};
+  EXPECT_EQ(flowWarningsOf(s), (Lines{"tank: drains[0]: it is 0.001 m thick; expected at least 0.025 m, what a particle goes in a substep "
+                                      "(solver.cfl): fluid passes through it",
+                                      "tank: drains[1]: it is 0.002 m thick; expected at least 0.025 m, what a particle goes in a substep "
+                                      "(solver.cfl): fluid passes through it"}));
+}
+
+TEST(FlowWarnings, MouthsThatNeverOpenOrAreDrained) {
+  Scene s = tankWithTap();
+  s.emitters[0].from = 12;
+  s.drains = {{.shape = BoxShape{{0, 0.5, 0}, {1, 1, 1}}}};
+  EXPECT_EQ(flowWarningsOf(s), (Lines{"tank: emitters[0].from: found 12 s, expected a time before the scene's duration of 10 s, or "
+                                      "fluid.capacity: no room is kept for its fluid",
+                                      "tank: emitters[0]: its mouth is inside drains[0], which removes its fluid at once"}));
+  s.emitters[0].from = 0;
+  s.drains[0].shape = SphereShape{{0.5, 0.8, 0.5}, 0.05};  // smaller than the mouth
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+}
+
+TEST(FlowWarnings, LevelsBelowALayer) {
+  Scene s = tankWithTap();
+  s.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.05, .speed = 0.1};
+  s.domain->outflow = Outflow{Axis::PlusX, 0.01};
+  EXPECT_EQ(flowWarningsOf(s),
+            (Lines{"tank: domain.inflow.level: found 0.05 m, expected at least fluid.spacing, 0.1 m, the height of a layer",
+                   "tank: domain.outflow.level: found 0.01 m, expected at least fluid.spacing, 0.1 m, the height of a layer"}));
+}
+
+TEST(FlowWarnings, InflowBehindASolid) {
+  Scene s = tankWithTap();
+  s.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.5, .speed = 0.1};
+  s.domain->outflow = Outflow{Axis::PlusX, 0.5};
+  s.solids = {{.shape = BoxShape{{-1, -1, -1}, {0.2, 2, 2}}}};
+  EXPECT_EQ(flowWarningsOf(s), Lines{"tank: domain.inflow: its mouth is inside solids[0]; it is blocked"});
+}
+
+TEST(FlowWarnings, ClosedDomainThatOverflows) {
+  Scene s = tankWithTap();
+  s.emitters[0].flow = 0.3;
+  s.emitters[0].from = 2;
+  const Lines full{
+      "tank: emitters: they have filled the closed domain after 5.333 s and go on, until its duration of 10 s with 2.4 times its "
+      "volume; expected a drain, an outflow, an open side or a smaller fluid.capacity"};
+  EXPECT_EQ(flowWarningsOf(s), full);
+  s.fill = {{.shape = BoxShape{{0, 0, 0}, {1, 0.3, 1}}}};
+  EXPECT_NE(flowWarningsOf(s).at(0).find("after 4.333 s"), std::string::npos);
+  s.fluid.capacity = 1000;
+  EXPECT_EQ(flowWarningsOf(s), Lines{}) << "emitters stop in time";
+  s.fluid.capacity = 0;
+  s.domain->open = 0b1000;
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+  s.domain->open = 0;
+  s.emitters[0].until = 4;
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+}
+
+}  // namespace
+}  // namespace rill::test
