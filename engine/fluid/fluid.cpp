@@ -73,14 +73,7 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, capacity);
-  if (auto fits = checkRoom(device, scene, capacity); !fits) {
-    const uint64_t most = maxParticles(device, scene);
-    if (capacity == n || n >= most || fits.error().kind != ErrorKind::TooLarge) return fits.error();
-    return Error{ErrorKind::TooLarge, scenePrefix(scene) + "fluid.capacity: found room for " + grouped(capacity) +
-                                          (scene.fluid.capacity > 0 ? " particles" : " particles, what emitters ask for until duration") +
-                                          ", expected at most " + grouped(most) + ", which \"" + device.info().name +
-                                          "\" has memory for; emitters wait while it is full"};
-  }
+  if (auto fits = checkRoom(device, scene, capacity, desc.capacity > 0 ? capacity : n); !fits) return fits.error();
 
   StartFigures start{.capacity = static_cast<uint32_t>(capacity)};
   Double3 low = {0, 0, 0}, high = {0, 0, 0};
