@@ -43,6 +43,7 @@ void figurePanel(Board& board) {
     figureLine("compression p99", "%.3f %%", 100 * board.stats->densityErrorP99);
     figureLine("max speed", "%.3g m/s", board.stats->maxSpeed);
     figureLine("energy", "%.4g J", board.stats->kinetic_J + board.stats->potential_J);
+    if (board.stats->sleeping) figureLine("asleep", "%s particles", grouped(*board.stats->sleeping).c_str());
     figureLine("outside; not finite", "%llu; %llu", static_cast<unsigned long long>(board.stats->outside),
                static_cast<unsigned long long>(board.stats->nonFinite));
   }
