@@ -100,7 +100,11 @@ struct Table<Inflow> {
   static constexpr std::array<std::string_view, 2> one_of{"flow", "speed"};
   static constexpr std::tuple fields{
       Field{Info{.key = "side", .help = "side of the domain, across x or z", .words = kAxisWords}, &Inflow::side},
-      Field{Info{.key = "level", .unit = "m", .range = above(0), .help = "depth of the flow: height above the floor", .required = true},
+      Field{Info{.key = "level",
+                 .unit = "m",
+                 .range = above(0),
+                 .help = "depth of the flow: height along y above the floor, whatever gravity is",
+                 .required = true},
             &Inflow::level},
       Field{Info{.key = "flow", .unit = "m^3/s", .range = above(0), .help = "volume per time"}, &Inflow::flow},
       Field{Info{.key = "speed", .unit = "m/s", .range = above(0), .help = "mean speed: flow over width and level"}, &Inflow::speed},
@@ -113,7 +117,11 @@ struct Table<Outflow> {
   static constexpr std::array one_of = kNoWords;
   static constexpr std::tuple fields{
       Field{Info{.key = "side", .help = "side of the domain, across x or z", .words = kAxisWords}, &Outflow::side},
-      Field{Info{.key = "level", .unit = "m", .range = above(0), .help = "height of the weir above the floor", .required = true},
+      Field{Info{.key = "level",
+                 .unit = "m",
+                 .range = above(0),
+                 .help = "height of the weir along y above the floor, whatever gravity is",
+                 .required = true},
             &Outflow::level}};
 };
 
