@@ -106,7 +106,7 @@ constexpr Band kBands[] = {
     {"channel", "speed in the middle", 0.05, {0.05, 0.05, 0.05}, "%", ""},
     {"channel", "profile, worst layer", 0.05, {0.055, 0.05, 0.05}, "", ""},
     {"orifice", "level", 0.02, {0.02, 0.02, 0.02}, "%", ""},
-    {"orifice", "jet, speed", 0.02, {0.07, 0.06, 0.06}, "%", "half of the hole is a few spacings wide"},
+    {"orifice", "jet, speed", 0.02, {0.07, 0.055, 0.04}, "%", "half of the hole is a few spacings wide"},
     {"orifice", "contraction", kNoAim, {0.14, 0.14, 0.14}, "%", ""},
     {"weir", "head", kNoAim, {0.1, 0.1, 0.1}, "%", ""},
     {"weir", "discharge", 0.1, {0.1, 0.1, 0.1}, "%", ""},
@@ -117,7 +117,7 @@ constexpr Band kBands[] = {
     {"lake", "time over that awake", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "", ""},
     // Measured at two levels; the last is checked once it is.
     {"hydraulic-jump", "Froude number", kNoAim, {0.08, 0.08, kNotChecked}, "%", ""},
-    {"hydraulic-jump", "depth ratio", 0.05, {0.07, 0.06, kNotChecked}, "%", ""},
+    {"hydraulic-jump", "depth ratio", 0.05, {0.055, 0.05, kNotChecked}, "%", ""},
     {"hydraulic-jump", "depth ratio, by momentum", kNoAim, {0.05, 0.04, kNotChecked}, "%", ""},
     {"hydraulic-jump", "momentum over that of uniform speed", kNoAim, {1.1, 1.1, kNotChecked}, "", ""},
     {"layers-1000", "pressure, in the light layer", 0.01, {0.16, 0.1, 0.09}, "%", kLightLayer},
