@@ -48,8 +48,9 @@ float reflectedSpread(ivec2 pixel, vec3 normal) {
 }
 
 #ifndef OPAQUE
-const float kMaxRay = 1e4;       // spacings: maximal length of a refracted ray
-const int kRefractionSteps = 3;  // steps that find where the ray meets the scene's depth
+const float kMaxRay = 1e4;            // spacings: maximal length of a refracted ray
+const int kRefractionSteps = 6;       // at most, that find where the ray meets the scene's depth
+const float kRefractionError = 0.25;  // pixels: depth that ends the search
 // Coherence, the length of the mean normal: 0.1 on a single drop, 0.5 at a straight silhouette, 1 on an even surface.
 // Each effect fades between two values of it.
 const vec2 kRefractionFade = vec2(0.2, 0.7);
@@ -279,12 +280,28 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   float ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
   vec2 hit_pixel = middle;
   float hit_depth = scene_depth[index];
+  // Lengths of the ray where the scene is behind it and where it is in front of it, and by how much: its end lies between.
+  float before = 0.0, before_gap = min(hit_depth, farthest) - z, beyond = 0.0, beyond_gap = 0.0;
   for (int k = 0; k < kRefractionSteps; ++k) {
     const vec3 at = point + bent * min(ray_length, inside) + sight * max(ray_length - inside, 0.0);
     if (at.z > view.near_depth) {
       hit_pixel = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
       hit_depth = scene_depth[uint(hit_pixel.y) * view.width + uint(hit_pixel.x)];
-      ray_length = max(ray_length + (min(hit_depth, farthest) - at.z) / max(ray_length < inside ? bent.z : sight.z, 0.1), 0.0);
+      const float gap = min(hit_depth, farthest) - at.z;
+      if (abs(gap) < kRefractionError * metersAPixel(at.z)) break;
+      if (gap < 0.0) {
+        beyond = ray_length;
+        beyond_gap = gap;
+      } else {
+        before = ray_length;
+        before_gap = gap;
+      }
+      // By the false position, or in the middle where an edge of the scene lies between.
+      const float part = before_gap / (before_gap - beyond_gap);
+      if (beyond_gap < 0.0)
+        ray_length = mix(before, beyond, part < 0.9 ? part : 0.5);
+      else
+        ray_length += gap / max(ray_length < inside ? bent.z : sight.z, 0.1);
       inside = max(inside, thicknessAt(hit_pixel));
     }
   }

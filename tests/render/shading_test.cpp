@@ -110,6 +110,34 @@ TEST_F(FlatPool, RefractionFollowsSnell) {
   }
 }
 
+// Rays that are bent onto a floor nearer to the eye, at angles where each step of the search overshoots.
+TEST_F(FlatPool, RefractedRaysEndOnTheFloorAtAnyAngle) {
+  constexpr double kDepth = 0.3, kPixel = 1.0 / kDown;
+  pool(kDepth, 5);
+  const FluidLook look = clear();
+  for (const double degrees : {40.0, 60.0, 75.0}) {
+    const double angle = degrees * kDegree, inner = std::asin(std::sin(angle) / double{look.refractionIndex});
+    const FluidView view = parallel(angle);
+    Backdrop black, ramp;
+    for (uint32_t y = 0; y < kDown; ++y) {
+      const double up = 0.5 - (y + 0.5) / kDown, z = kDistance + (up * std::sin(angle) + kDepth) / std::cos(angle);  // m, along the view
+      black.depths.insert(black.depths.end(), kAcross, static_cast<float>(-view.projection.column[2].z * z));
+      ramp.pixels.insert(ramp.pixels.end(), kAcross, {float(y) + 0.5f, 0, 0, 1});
+    }
+    ramp.depths = black.depths;
+    const auto dark = drawn(view, look, black, {.color = kFormat}).channels(kFormat);
+    const auto light = drawn(view, look, ramp, {.color = kFormat}).channels(kFormat);
+    const double shift = kDepth * (std::sin(angle) - std::tan(inner) * std::cos(angle)) / kPixel;  // pixels
+    const double left = 1 - fresnel(angle, double{look.refractionIndex});
+    // The surface is within 0.4 spacings of its place.
+    for (uint32_t y = 30; y < kDown - 45; ++y)
+      for (uint32_t x = 30; x < kAcross - 30; ++x) {
+        const size_t i = size_t{y} * kAcross + x;
+        ASSERT_NEAR((light[i][0] - dark[i][0]) / left, y + 0.5 + shift, 0.5 + 0.13 * shift) << degrees << " degrees at " << x << " " << y;
+      }
+  }
+}
+
 // A ball's lower rim, seen edge on, reflects the scene behind it if the fluid is transparent, and not if it is opaque.
 TEST_F(FlatPool, OpaqueFluidHidesTheScene) {
   fill(shells({0, 0, 0}, 0.5));
