@@ -57,6 +57,8 @@ const vec2 kRefractionFade = vec2(0.2, 0.7);
 const vec2 kReflectionFade = vec2(0.2, 0.5);
 const vec2 kHighlightFade = vec2(0.6, 0.9);   // of the sun
 const vec2 kWhitewaterFade = vec2(0.1, 0.5);  // from white to clear
+// Cosines of the angle between a normal and the mean of those around it: from the mean to its own.
+const vec2 kNormalFade = vec2(0.25, 0.5);
 // Spacings between where two fluids begin on a ray: from a mixture to one before the other.
 const vec2 kApart = vec2(0.5, 1.5);
 // Cosines between view ray and reflected ray: from a reflection of the sky to one of the scene behind.
@@ -116,14 +118,6 @@ float beginOf(uint fluid, Around near) {
     weights += shares[k];
   }
   return weights > 1e-3 ? sum / weights : noDepth();
-}
-
-// What a pixel's ray loses in all of the fluid, as an exponent.
-vec3 lossAt(vec2 pixel) {
-  const Around near = around(pixel);
-  vec3 sum = absorptionOf(0u) * thicknessOf(0u, near);
-  for (uint fluid = 1u; fluid < FLUIDS; ++fluid) sum += absorptionOf(fluid) * thicknessOf(fluid, near);
-  return sum;
 }
 
 // What fluid scatters of the light that falls on it where its surface has this normal of the scene.
@@ -323,12 +317,10 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   return mix(body, skyLight(vec3(0.0, 1.0, 0.0)) + sunlight() * facing_sun * facing_sun, white);
 }
 
-// At grazing angles a reflected ray below the horizon shows the scene behind the fluid.
-vec3 reflectedLight(ivec2 pixel, vec3 sight, vec3 mirrored, float spread) {
-  const vec3 sky = skyColor(mirrored, look.light.xyz, spread);
+// At grazing angles a reflected ray below the horizon shows what is seen through the fluid, `body`.
+vec3 reflectedLight(vec3 body, vec3 sight, vec3 mirrored, float spread) {
   const float past = smoothstep(kGrazing.x, kGrazing.y, dot(mirrored, sight)) * (1.0 - skyShare(mirrored));
-  if (past <= 0.0) return sky;
-  return mix(sky, sceneAt(pixel) * exp(-lossAt(vec2(pixel) + 0.5)), past);
+  return mix(skyColor(mirrored, look.light.xyz, spread), body, past);
 }
 #endif
 
@@ -341,6 +333,11 @@ void main() {
   const vec2 axis = axisOf(vec2(pixel) + 0.5);
   const vec3 along = rayAlong(axis), sight = normalize(along);
   vec3 normal = unpackNormal(own.y);
+#ifndef OPAQUE
+  const MeanNormal mean_normal = meanNormalAt(vec2(pixel) + 0.5, z, normal, sight);
+  // In a gap planes can meet at an angle that no surface around has.
+  normal = normalize(mix(mean_normal.direction, normal, smoothstep(kNormalFade.x, kNormalFade.y, dot(normal, mean_normal.direction))));
+#endif
   // A normal that faces away at a silhouette is rotated until it is seen edge on.
   const float facing = dot(normal, sight);
   if (facing > kEdgeOn) normal = normalize(normal - (facing - kEdgeOn) * sight);
@@ -356,12 +353,11 @@ void main() {
   const vec3 body = look.scatter.rgb * (skyLight(world_normal) + sunlight() * max(dot(world_normal, sun), 0.0)) + look.emission.rgb;
   const vec3 mirror = skyColor(mirrored, sun, spread);
 #else
-  const MeanNormal mean_normal = meanNormalAt(vec2(pixel) + 0.5, z, normal, sight);
   // Reflections in spray would flicker from pixel to pixel. A straight silhouette reflects in full.
   reflected *= z <= nearestDrawn() ? 0.0 : smoothstep(kReflectionFade.x, kReflectionFade.y, mean_normal.coherence);
   highlight *= smoothstep(kHighlightFade.x, kHighlightFade.y, mean_normal.coherence);
   const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, scatteredLight(world_normal));
-  const vec3 mirror = reflectedLight(pixel, world_sight, mirrored, spread);
+  const vec3 mirror = reflectedLight(body, world_sight, mirrored, spread);
 #endif
   const vec3 fluid = mix(body, mirror, reflected) + sunlight() * (reflected * highlight);
   color = vec4(mix(sceneAt(pixel), fluid, pixelCoverage(own)), 1.0);

@@ -138,6 +138,40 @@ TEST_F(FlatPool, RefractedRaysEndOnTheFloorAtAnyAngle) {
   }
 }
 
+// What thick fluid scatters is seen at its rims, too, where a reflected ray passes the fluid.
+TEST_F(FlatPool, ThickFluidHasNoBlackRim) {
+  fill(shells({0, 0, 0}, 0.5));
+  FluidLook look = *fluidLook("milk");
+  look.sun = 0;
+  const auto picture = seen(orthographic(0.7, eye(1.5)), look, {1, 1, 1, 1});
+  double darkest = 1;
+  for (const Color& pixel : picture) darkest = std::min(darkest, pixel[1]);
+  EXPECT_GT(darkest, 0.22);
+}
+
+// In gaps of a spacing between the layers of a thread planes meet at any angle. No pixel there mirrors the sky as a rim does.
+TEST_F(FlatPool, GapsInAThreadDoNotMirrorTheSky) {
+  FluidLook look = clear();
+  look.absorption = {1e4f, 1e4f, 1e4f};
+  size_t mirroring = 0;
+  for (const int layers : {2, 3}) {  // between gaps
+    std::vector<Float4> thread;
+    double level = -0.8;
+    for (int k = 0; level < 0.8; ++k) {
+      for (const Float4& p : block({-0.5, level, -0.5}, {0.5, level + 0.099, 0.5}))
+        if (std::hypot(p.x, p.z) < 0.4f) thread.push_back(p);
+      level += k % layers == layers - 1 ? 0.2 : 0.1;
+    }
+    fill(thread);
+    for (const double angle : {1.2, 1.3, 1.4, 1.5, 1.6, 1.7}) {
+      const auto picture = seen(orthographic(0.9, eye(angle)), look, {0, 0, 0, 1});
+      for (uint32_t y = 35; y < kDown - 35; ++y)
+        for (uint32_t x = 64; x < 96; ++x) mirroring += picture[size_t{y} * kAcross + x][1] > 0.1;
+    }
+  }
+  EXPECT_LT(mirroring, 40u);  // of 19,200; 111 with the planes' own normals
+}
+
 // A ball's lower rim, seen edge on, reflects the scene behind it if the fluid is transparent, and not if it is opaque.
 TEST_F(FlatPool, OpaqueFluidHidesTheScene) {
   fill(shells({0, 0, 0}, 0.5));
