@@ -31,6 +31,8 @@ TEST(LookPresets, HaveTheirColors) {
   EXPECT_TRUE(body("sea").y > body("sea").z && body("sea").z > body("sea").x) << "green";
   EXPECT_TRUE(body("river").x > body("river").y && body("river").y > 2 * body("river").z) << "brown";
   EXPECT_TRUE(body("honey").x > 2 * body("honey").y && body("honey").y > 2 * body("honey").z) << "amber";
+  const Float3 thick = fluidLook("lava")->absorption;  // what is behind lava would tint its glow
+  for (const float rate : {thick.x, thick.y, thick.z}) EXPECT_LT(std::exp(-0.01f * rate), 0.06f);
   EXPECT_GT(fluidLook("lava")->emission.x, 5 * fluidLook("lava")->emission.y) << "red";
   for (const std::string_view name : {"water", "milk", "clay", "sea"}) EXPECT_EQ(fluidLook(name)->emission.x, 0) << name;
 }
