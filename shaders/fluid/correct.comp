@@ -170,12 +170,11 @@ void main() {
   inverseMass = inverseMassOf(fluid);
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
-  bool looks = moves || (inRange && gathersAsleep());
-  visitNeighbors(i, looks ? head : 0u, local, looks);
+  bool gathers = moves || (inRange && gathersAsleep());
+  visitNeighbors(i, gathers ? head : 0u, local, gathers);
   // No lane leaves before the maximum: those that are left need not come together again.
   float speed = moves ? endSubstep(i, head) : 0.0;
-  if (REGIONS && looks && !moves) storeAcceleration(i, head);
-  if (REGIONS && LOADS && inRange && !moves && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = vec2(0.0);
+  if (REGIONS && gathers && !moves) storeAcceleration(i, head);
   float fastest = subgroupMax(speed);
   float motion = subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion));
   if (SOLIDS && inRange && i == 0u) {  // for collide.comp; the next substep counts anew

@@ -25,6 +25,8 @@ READ_UINT4(6, solids)  // SolidRecord
 READ_UINT2(7, nearMultipliers)  // two floats
 layout(std430, binding = 8) buffer SolidSumsBlock { uint solidSums[]; };
 READ_UINT(10, nearSampled)  // of solids.comp, at the same places
+READ_UINT(11, listHead)
+#include "fluid/sleeping.glsl"
 #include "fluid/solid_density.glsl"
 #include "fluid/solid_reaction.glsl"
 
@@ -89,7 +91,7 @@ void main() {
   bool inRange = n < sums.nearSolids;
   NearSolids near = nearSolidsOf(inRange ? n : 0u);
   uint i = near.particle;
-  inRange = inRange && i < control.solved;
+  inRange = inRange && !isAsleep(i);
   vec3 x = uintBitsToFloat(workAt(i).xyz);
   vec2 multipliers = uintBitsToFloat(nearMultipliersAt(i));
   if (control.phase != kPhaseAdvancing) multipliers.x = 0.0;

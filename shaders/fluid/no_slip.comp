@@ -18,7 +18,9 @@ READ_UINT4(6, solids)  // SolidRecord
 layout(std430, binding = 8) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
 READ_FLOAT4(10, priorVelocity)
+READ_UINT(11, listHead)
 #include "fluid/no_slip.glsl"
+#include "fluid/sleeping.glsl"
 #include "fluid/solid_reaction.glsl"
 
 void addReactions(NearSolids near, vec3 x, vec3 v, uint fluid, float mobile) {
@@ -39,7 +41,7 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
-  if (near.particle >= control.solved) return;
+  if (isAsleep(near.particle)) return;
   uvec4 particle = workAt(near.particle);
   uint fluid = fluidOfWork(particle);
   float mobile = mobility(near.particle, fluid);

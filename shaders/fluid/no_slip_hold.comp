@@ -17,13 +17,15 @@ READ_UINT4(6, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
 layout(std430, binding = 8) writeonly buffer HoldBlock { vec4 hold[]; };
 READ_FLOAT4(9, priorVelocity)
+READ_UINT(10, listHead)
 #include "fluid/no_slip.glsl"
+#include "fluid/sleeping.glsl"
 
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
-  if (near.particle >= control.solved) return;
+  if (isAsleep(near.particle)) return;
   uvec4 particle = workAt(near.particle);
   vec3 x = uintBitsToFloat(particle.xyz);
   Adhesion a = Adhesion(0.0, vec3(0.0));

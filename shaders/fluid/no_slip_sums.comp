@@ -20,7 +20,9 @@ layout(std430, binding = 8) readonly buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 9) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 10) readonly buffer BodyBlock { BodyRecord bodies[]; };
 READ_FLOAT4(11, priorVelocity)
+READ_UINT(12, listHead)
 #include "fluid/no_slip.glsl"
+#include "fluid/sleeping.glsl"
 #include "fluid/solid_sums.glsl"
 
 // `b`: what the particle gives a body of its velocity w relative to it, over the mass of one of the densest fluid.
@@ -40,7 +42,7 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
-  if (near.particle >= control.solved) return;
+  if (isAsleep(near.particle)) return;
   uvec4 particle = workAt(near.particle);
   uint fluid = fluidOfWork(particle);
   float mobile = mobility(near.particle, fluid);

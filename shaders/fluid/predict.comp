@@ -16,6 +16,7 @@ READ_UINT4(7, nearSolids)
 layout(std430, binding = 8) readonly buffer SumsBlock { FluidSums sums; };
 READ_UINT(9, meshWord)
 READ_UINT(10, listHead)
+#include "fluid/sleeping.glsl"
 #include "fluid/outside.glsl"
 layout(local_size_x = kFluidGroup) in;
 
@@ -24,7 +25,7 @@ void main() {
   if (i >= (NEAR_SOLIDS ? sums.nearSolids : control.solved)) return;
   NearSolids near = nearSolidsOf(NEAR_SOLIDS ? i : 0u);
   if (NEAR_SOLIDS) i = near.particle;
-  if (REGIONS && (listHeadAt(i) & kAsleepBit) != 0u) return;
+  if (isAsleep(i)) return;
   vec4 present = positionAt(i);
   vec3 x = present.xyz;
   vec3 next = predicted(x, velocityAt(i).xyz, keptWarmAcceleration(warmAccelerationAt(i)));

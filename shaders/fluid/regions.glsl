@@ -20,7 +20,7 @@ uvec3 regionOf(vec3 x) {
 
 // The region `offset` away, of which each component is -2 .. 2, on the wrapped grid.
 uint regionBeside(uvec3 at, ivec3 offset) {
-  ivec3 counts = ivec3(regionCounts()), beside = ivec3(at) + offset;  // of at least 8 regions; a remainder would take far longer
+  ivec3 counts = ivec3(regionCounts()), beside = ivec3(at) + offset;  // no remainder: CPU drivers compute one at a time
   beside += counts * (ivec3(lessThan(beside, ivec3(0))) - ivec3(greaterThanEqual(beside, counts)));
   return regionIndex(uvec3(beside));
 }

@@ -32,6 +32,7 @@ layout(std430, binding = 12) buffer SolidSumsBlock { uint solidSums[]; };
 layout(std430, binding = 14) writeonly buffer InReachBlock { uvec2 inReach[]; };  // entries, and NearSolids::mask of those in reach
 layout(std430, binding = 13) writeonly buffer SampledBlock { uint nearSampled[]; };  // of each entry, see NearSolids::mask
 READ_UINT(15, listHead)
+#include "fluid/sleeping.glsl"
 #include "fluid/bodies.glsl"
 #include "fluid/solid_sums.glsl"
 #include "fluid/solid_reach.glsl"
@@ -54,8 +55,7 @@ void main() {
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
   uint i = near.particle;
-  if (REGIONS && i >= control.solved && push.measures == 0u) return;  // asleep, and far from all that moves
-  bool asleep = REGIONS && (listHeadAt(i) & kAsleepBit) != 0u;
+  if (REGIONS && i >= control.solved && push.measures == 0u) return;  // figures alone see what is far from all that moves
   vec3 x = placeAt(i).xyz;
   SolidCoverage coverage = SolidCoverage(vec3(0.0), vec3(0.0));
   vec4 displaced = vec4(0.0);
@@ -89,5 +89,5 @@ void main() {
   nearTangential[i] = packSolidScale(coverage);
   if (BODIES) nearStiffness[i] = stiffness;
   if (LOADS) nearSampled[n] = sampled;
-  if (push.begins != 0u && reached != 0u && !asleep) inReach[atomicAdd(sums.inReach, 1u)] = uvec2(n, reached);
+  if (push.begins != 0u && reached != 0u && !isAsleep(i)) inReach[atomicAdd(sums.inReach, 1u)] = uvec2(n, reached);
 }

@@ -8,6 +8,7 @@
 layout(local_size_x = kFluidGroup) in;
 READ_FLOAT4(2, position)
 READ_UINT(3, listHead)
+#include "fluid/sleeping.glsl"
 layout(std430, binding = 4) readonly buffer ForceBlock { int surfaceForce[]; };
 layout(std430, binding = 5) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 6) writeonly buffer SurfaceParticleBlock { uint surfaceParticle[]; };
@@ -17,7 +18,7 @@ void main() {
   if (i < kMaxSurfaceChunks) surfaceParticle[params.capacity + i] = 0u;
   if (i >= control.solved) return;
   vec4 particle = positionAt(i);
-  bool asleep = REGIONS && (listHeadAt(i) & kAsleepBit) != 0u;
+  bool asleep = isAsleep(i);
   if (!isActive(particle.xyz) || asleep) return;
   vec3 force = vec3(surfaceForce[3u * i], surfaceForce[3u * i + 1u], surfaceForce[3u * i + 2u]);
   float scale = control.step * params.tensionRate * inverseMassOf(fluidOfPosition(particle)) * params.spacing / kTensionUnits;

@@ -21,6 +21,7 @@ void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
+  if (near.particle >= control.solved) return;
   vec3 x = positionAt(near.particle).xyz;
   vec4 plane = vec4(0.0, 1.0, 0.0, kNoWall);
   for (uint m = 0u, k; nextSolid(near, m, k); ++m) {

@@ -90,13 +90,17 @@ TEST_F(RegionsAtSolidsTest, DensityAtSolidsIsThatOfFluidAwake) {
   EXPECT_GT(asleep, 20u);
 }
 
-TEST_F(RegionsAtSolidsTest, EndsWhereItWouldWithoutSleep) { expectEndWithoutSleep(channelWithShoal(), shoalPartlyAsleep()); }
+TEST_F(RegionsAtSolidsTest, MatchesRunWithoutSleep) { expectEndWithoutSleep(channelWithShoal(), shoalPartlyAsleep()); }
 
 // Also where the checkpoint has no lists, since they were due.
 TEST_F(RegionsAtSolidsTest, SavingAndGoingOnChangesNothing) {
-  const Trial t = channelWithShoal();
-  auto whole = start(t, &shoalPartlyAsleep());
-  FluidSnapshot state = shoalPartlyAsleep();
+  Trial t = channelWithShoal();
+  t.scene.solids.push_back(slab({0.9, -0.1, -0.1}, {0.94, 0.4, 0.04}));
+  t.scene.solids[1].driven = 1;  // holds fluid awake
+  t.x.clear();
+  addOutsideSolids(t, block({kRoom.x, kLayers, kRoom.z}, t.d()));
+  FluidSnapshot state = afterOpening(t);
+  auto whole = start(t, &state);
   int due = 0;
   for (int frame = 0; frame < 20; ++frame) {
     frames(*whole, kFrame);
@@ -114,7 +118,7 @@ TEST_F(RegionsAtSolidsTest, SavingAndGoingOnChangesNothing) {
 }
 
 // A box sinks into what sleeps: it wakes before the box is there, and bears it as water does.
-TEST_F(RegionsAtSolidsTest, SolidThatComesWakesWhatItComesTo) {
+TEST_F(RegionsAtSolidsTest, ApproachingSolidWakesRegions) {
   Trial t = channel();
   t.scene.emitters.clear();
   t.capacity = 0;

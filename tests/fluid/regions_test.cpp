@@ -102,7 +102,7 @@ TEST_F(RegionsTest, SavingAndGoingOnChangesNothing) {
 }
 
 // The tap raises the level by most of a layer, so slowly that hardly anything moves: pressure has to wake what sleeps.
-TEST_F(RegionsTest, EndsWhereItWouldWithoutSleep) { expectEndWithoutSleep(channel(), partlyAsleep()); }
+TEST_F(RegionsTest, MatchesRunWithoutSleep) { expectEndWithoutSleep(channel(), partlyAsleep()); }
 
 // Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own.
 TEST_F(RegionsTest, TapWakesItsOwnEndOfAFluidThatSlept) {
