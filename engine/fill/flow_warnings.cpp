@@ -1,6 +1,7 @@
 #include "fill/flow_warnings.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/overloaded.hpp"
 #include "core/vector_math.hpp"
@@ -33,6 +34,11 @@ BoxShape boundsOf(const Drain& drain) {
   return {minus(sphere.center, reach), along(sphere.center, 1, reach)};
 }
 
+/// Whether a drain is open for as long as an emitter is.
+bool drainsAll(const Drain& drain, const Emitter& emitter) {
+  return drain.from <= emitter.from && (!drain.until || (emitter.until && *emitter.until <= *drain.until));
+}
+
 void addMouths(const Scene& scene, double spacing, Warnings& warnings) {
   const std::vector<Emitter> emitters = emittersOf(scene);
   for (size_t i = 0; i < emitters.size(); ++i) {
@@ -40,32 +46,39 @@ void addMouths(const Scene& scene, double spacing, Warnings& warnings) {
     if (emitter.from >= scene.duration && scene.fluid.capacity == 0)
       warnings.push_back(emitterKey(scene, i) + ".from: found " + seconds(emitter.from) +
                          ", expected a time before the scene's duration of " + seconds(scene.duration) +
-                         ", or fluid.capacity: no room is kept for its fluid");
-    const std::vector<Double3> samples = samplesOf(emitter.mouth, spacing);
+                         ", or fluid.capacity: room is kept for a layer of it alone");
+    if (emitter.motion.size() > 1) continue;
+    const std::vector<Double3> samples = samplesOf(mouthAt(emitter, 0), spacing);
     for (size_t k = 0; k < scene.drains.size(); ++k)
-      if (std::ranges::all_of(samples, [&](const Double3& p) { return isIn(scene.drains[k], p); }))
+      if (drainsAll(scene.drains[k], emitter) && std::ranges::all_of(samples, [&](const Double3& p) { return isIn(scene.drains[k], p); }))
         warnings.push_back(emitterKey(scene, i) + ": its mouth is inside " + elementPath("drains", k) +
                            ", which removes its fluid at once");
   }
 }
 
+/// The least extent of what closed walls leave of a drain, m; below 0 if it is outside them.
+double thicknessOf(const Drain& drain, const Scene& scene) {
+  const BoxShape box = boundsOf(drain);
+  double thickness = std::numeric_limits<double>::max();
+  for (int a = 0; a < 3; ++a) {
+    double low = box.min[a], high = box.max[a];
+    if (scene.domain && isClosed(*scene.domain, 2 * a)) low = std::max(low, scene.domain->min[a]);
+    if (scene.domain && isClosed(*scene.domain, 2 * a + 1)) high = std::min(high, scene.domain->max[a]);
+    thickness = std::min(thickness, high - low);
+  }
+  return thickness;
+}
+
 void addDrains(const Scene& scene, double spacing, Warnings& warnings) {
-  const double step = scene.solver.cfl * spacing;  // the largest displacement in a substep
+  const double step = 2 * scene.solver.cfl * spacing;  // the farthest that a substep moves a particle
   for (size_t k = 0; k < scene.drains.size(); ++k) {
-    const BoxShape box = boundsOf(scene.drains[k]);
-    double thickness = box.max.x - box.min.x;
-    bool outside = false;
-    for (int a = 0; a < 3; ++a) {
-      thickness = std::min(thickness, box.max[a] - box.min[a]);
-      if (!scene.domain) continue;
-      outside |= isClosed(*scene.domain, 2 * a) && box.max[a] < scene.domain->min[a];
-      outside |= isClosed(*scene.domain, 2 * a + 1) && box.min[a] > scene.domain->max[a];
-    }
-    if (outside)
+    const double thickness = thicknessOf(scene.drains[k], scene);
+    if (thickness <= 0)
       warnings.push_back(elementPath("drains", k) + ": it is outside the domain's walls; nothing gets there");
     else if (thickness < step)
-      warnings.push_back(elementPath("drains", k) + ": it is " + roundedNumber(thickness) + " m thick; expected at least " +
-                         roundedNumber(step) + " m, what a particle goes in a substep (solver.cfl): fluid passes through it");
+      warnings.push_back(elementPath("drains", k) + ": it is " + roundedNumber(thickness) +
+                         " m thick within the walls; expected at least " + roundedNumber(step) +
+                         " m, as far as a substep may move a particle (solver.cfl): some pass it");
   }
 }
 
@@ -80,25 +93,27 @@ void addLevels(const Scene& scene, double spacing, Warnings& warnings) {
   add(scene.domain->outflow, "domain.outflow");
 }
 
-/// A domain without any way out that is full before its emitters close. What solids take of it does not count.
+/// A domain that fluid cannot leave, and that emitters overfill. What solids take of it does not count.
 void addOverflow(const Scene& scene, uint64_t filled, double spacing, Warnings& warnings) {
+  constexpr double kRounding = 1e-6;
   const std::vector<Emitter> emitters = emittersOf(scene);
-  if (emitters.empty() || !scene.domain || scene.domain->open != 0 || scene.domain->outflow || !scene.drains.empty()) return;
+  if (emitters.empty() || !scene.domain || scene.domain->open != 0 || scene.domain->outflow) return;
   const Double3 size = minus(scene.domain->max, scene.domain->min);
-  const double room = size.x * size.y * size.z, particle = spacing * spacing * spacing;
-  if (scene.fluid.capacity > 0 && static_cast<double>(scene.fluid.capacity) * particle <= (1 + kWallSlack) * room) return;
+  const double room = (1 + kRounding) * size.x * size.y * size.z, particle = spacing * spacing * spacing;
+  if (scene.fluid.capacity > 0 && static_cast<double>(scene.fluid.capacity) * particle <= room) return;
   const auto volumeAt = [&](double t) {
     double volume = static_cast<double>(filled) * particle;
     for (const Emitter& emitter : emitters)
       volume += flowOf(emitter) * std::max(std::min(emitter.until.value_or(t), t) - emitter.from, 0.0);
     return volume;
   };
-  if (!(volumeAt(scene.duration) > (1 + kWallSlack) * room)) return;
+  if (!(volumeAt(scene.duration) > room)) return;
   double before = 0, after = scene.duration;
   for (int k = 0; k < 60; ++k) (volumeAt((before + after) / 2) > room ? after : before) = (before + after) / 2;
-  warnings.push_back("emitters: they have filled the closed domain after " + seconds(after) + " and go on, until its duration of " +
-                     seconds(scene.duration) + " with " + roundedNumber(volumeAt(scene.duration) / room) +
-                     " times its volume; expected a drain, an outflow, an open side or a smaller fluid.capacity");
+  if (std::ranges::any_of(scene.drains, [&](const Drain& drain) { return drain.from < after && thicknessOf(drain, scene) > 0; })) return;
+  warnings.push_back("emitters: they have filled the closed domain after " + seconds(after) + ", and ask for " +
+                     roundedNumber(volumeAt(scene.duration) / room) +
+                     " times its volume until duration; expected a drain, an outflow, an open side or a smaller fluid.capacity");
 }
 
 }  // namespace

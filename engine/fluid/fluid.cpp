@@ -73,7 +73,11 @@ Expected<std::unique_ptr<FluidImpl>> FluidImpl::create(Device& device, const Flu
   auto impl = std::make_unique<FluidImpl>();
   impl->device_ = &implOf(device);
   impl->memory = fluidMemory(scene, capacity);
-  if (auto fits = checkRoom(device, scene, capacity, desc.capacity > 0 ? capacity : n); !fits) return fits.error();
+  const char* remedy = desc.capacity > 0 || capacity == n ? "make fluid.spacing larger or fluid.particles smaller"
+                       : scene.fluid.capacity > 0         ? "make fluid.capacity smaller"
+                                                          : "set fluid.capacity to that or less; emitters, which ask for the others, wait "
+                                                            "while it is full";
+  if (auto fits = checkRoom(device, scene, capacity, remedy); !fits) return fits.error();
 
   StartFigures start{.capacity = static_cast<uint32_t>(capacity)};
   Double3 low = {0, 0, 0}, high = {0, 0, 0};

@@ -61,16 +61,12 @@ uint32_t maxParticles(const Device& device, const Scene& scene) {
   return static_cast<uint32_t>(fits);
 }
 
-Expected<void> checkRoom(const Device& device, const Scene& scene, uint64_t particles, uint64_t filled) {
+Expected<void> checkRoom(const Device& device, const Scene& scene, uint64_t particles, std::string_view remedy) {
   const auto limit = exceeded(device.info(), device.availableBytes(), scene, particles);
   if (!limit) return {};
-  const uint64_t most = maxParticles(device, scene);
-  const bool byEmitters = filled < std::min(particles, most);
-  return Error{ErrorKind::TooLarge,
-               scenePrefix(scene) + std::to_string(particles) + " particles do not fit on \"" + device.info().name + "\": " + *limit +
-                   ". At most " + std::to_string(most) + " fit: " +
-                   (byEmitters ? "set fluid.capacity to that or less; emitters, which ask for the others, wait while it is full"
-                               : "make fluid.spacing larger or fluid.particles smaller")};
+  return Error{ErrorKind::TooLarge, scenePrefix(scene) + std::to_string(particles) + " particles do not fit on \"" + device.info().name +
+                                        "\": " + *limit + ". At most " + std::to_string(maxParticles(device, scene)) +
+                                        " fit: " + std::string(remedy)};
 }
 
 }  // namespace rill

@@ -19,7 +19,7 @@ Scene tankWithTap() {
 
 Lines flowWarningsOf(Scene s) { return particles(s).warnings; }
 
-TEST(FlowWarnings, NoneAboutWhatWorks) {
+TEST(FlowWarnings, AcceptsDrainsThatFluidReaches) {
   Scene s = tankWithTap();
   EXPECT_EQ(flowWarningsOf(s), Lines{});
   s.drains = {{.shape = BoxShape{{0, 0, 0}, {1, 0.1, 1}}}, {.shape = SphereShape{{0.5, 0, 0.5}, 0.2}}};
@@ -27,37 +27,50 @@ TEST(FlowWarnings, NoneAboutWhatWorks) {
   EXPECT_EQ(flowWarningsOf(s), Lines{});
 }
 
-TEST(FlowWarnings, DrainsThatNothingReaches) {
+TEST(FlowWarnings, NamesDrainsOutsideTheWalls) {
   Scene s = tankWithTap();
   s.drains = {{.shape = BoxShape{{1.1, 0, 0}, {1.4, 1, 1}}}, {.shape = SphereShape{{0.5, -0.3, 0.5}, 0.2}}};
   EXPECT_EQ(flowWarningsOf(s), (Lines{"tank: drains[0]: it is outside the domain's walls; nothing gets there",
                                       "tank: drains[1]: it is outside the domain's walls; nothing gets there"}));
+  s.drains[0].shape = BoxShape{{0, -1, 0}, {1, 0, 1}};
+  EXPECT_EQ(flowWarningsOf(s).size(), 2U) << "it ends at the wall";
   s.domain->open = 0b110;  // +x and -y
   EXPECT_EQ(flowWarningsOf(s), Lines{});
 }
 
-TEST(FlowWarnings, DrainsThinnerThanAStep) {
+TEST(FlowWarnings, NamesDrainsThinnerThanASubstepMoves) {
   Scene s = tankWithTap();
   s.drains = {{.shape = BoxShape{{0, 0.1, 0}, {1, 0.101, 1}}}, {.shape = SphereShape{{0.5, 0.3, 0.5}, 0.001}}};
-  EXPECT_EQ(flowWarningsOf(s), (Lines{"tank: drains[0]: it is 0.001 m thick; expected at least 0.025 m, what a particle goes in a substep "
-                                      "(solver.cfl): fluid passes through it",
-                                      "tank: drains[1]: it is 0.002 m thick; expected at least 0.025 m, what a particle goes in a substep "
-                                      "(solver.cfl): fluid passes through it"}));
+  EXPECT_EQ(flowWarningsOf(s),
+            (Lines{"tank: drains[0]: it is 0.001 m thick within the walls; expected at least 0.05 m, as far as a substep "
+                   "may move a particle (solver.cfl): some pass it",
+                   "tank: drains[1]: it is 0.002 m thick within the walls; expected at least 0.05 m, as far as a substep "
+                   "may move a particle (solver.cfl): some pass it"}));
 }
 
-TEST(FlowWarnings, MouthsThatNeverOpenOrAreDrained) {
+TEST(FlowWarnings, NamesMouthsThatOpenTooLateOrAreDrained) {
   Scene s = tankWithTap();
   s.emitters[0].from = 12;
   s.drains = {{.shape = BoxShape{{0, 0.5, 0}, {1, 1, 1}}}};
   EXPECT_EQ(flowWarningsOf(s), (Lines{"tank: emitters[0].from: found 12 s, expected a time before the scene's duration of 10 s, or "
-                                      "fluid.capacity: no room is kept for its fluid",
+                                      "fluid.capacity: room is kept for a layer of it alone",
                                       "tank: emitters[0]: its mouth is inside drains[0], which removes its fluid at once"}));
   s.emitters[0].from = 0;
-  s.drains[0].shape = SphereShape{{0.5, 0.8, 0.5}, 0.05};  // smaller than the mouth
-  EXPECT_EQ(flowWarningsOf(s), Lines{});
+  EXPECT_EQ(flowWarningsOf(s).size(), 1U);
+  s.drains[0].from = 5;
+  EXPECT_EQ(flowWarningsOf(s), Lines{}) << "the drain opens later";
+  s.drains[0].from = 0;
+  s.drains[0].until = 5;
+  EXPECT_EQ(flowWarningsOf(s), Lines{}) << "it closes earlier";
+  s.drains[0].until.reset();
+  s.emitters[0].motion = {{0, {0, 0, 0}}, {1, {0, -0.5, 0}}};
+  EXPECT_EQ(flowWarningsOf(s), Lines{}) << "the mouth leaves it";
+  s.emitters[0].motion.clear();
+  s.drains[0].shape = SphereShape{{0.5, 0.8, 0.5}, 0.05};
+  EXPECT_EQ(flowWarningsOf(s), Lines{}) << "it is smaller than the mouth";
 }
 
-TEST(FlowWarnings, LevelsBelowALayer) {
+TEST(FlowWarnings, NamesLevelsBelowALayer) {
   Scene s = tankWithTap();
   s.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.05, .speed = 0.1};
   s.domain->outflow = Outflow{Axis::PlusX, 0.01};
@@ -66,7 +79,7 @@ TEST(FlowWarnings, LevelsBelowALayer) {
                    "tank: domain.outflow.level: found 0.01 m, expected at least fluid.spacing, 0.1 m, the height of a layer"}));
 }
 
-TEST(FlowWarnings, InflowBehindASolid) {
+TEST(FlowWarnings, NamesBlockedInflow) {
   Scene s = tankWithTap();
   s.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.5, .speed = 0.1};
   s.domain->outflow = Outflow{Axis::PlusX, 0.5};
@@ -74,13 +87,13 @@ TEST(FlowWarnings, InflowBehindASolid) {
   EXPECT_EQ(flowWarningsOf(s), Lines{"tank: domain.inflow: its mouth is inside solids[0]; it is blocked"});
 }
 
-TEST(FlowWarnings, ClosedDomainThatOverflows) {
+TEST(FlowWarnings, NamesClosedDomainThatOverflows) {
   Scene s = tankWithTap();
   s.emitters[0].flow = 0.3;
   s.emitters[0].from = 2;
   const Lines full{
-      "tank: emitters: they have filled the closed domain after 5.333 s and go on, until its duration of 10 s with 2.4 times its "
-      "volume; expected a drain, an outflow, an open side or a smaller fluid.capacity"};
+      "tank: emitters: they have filled the closed domain after 5.333 s, and ask for 2.4 times its volume until "
+      "duration; expected a drain, an outflow, an open side or a smaller fluid.capacity"};
   EXPECT_EQ(flowWarningsOf(s), full);
   s.fill = {{.shape = BoxShape{{0, 0, 0}, {1, 0.3, 1}}}};
   EXPECT_NE(flowWarningsOf(s).at(0).find("after 4.333 s"), std::string::npos);
@@ -90,7 +103,17 @@ TEST(FlowWarnings, ClosedDomainThatOverflows) {
   s.domain->open = 0b1000;
   EXPECT_EQ(flowWarningsOf(s), Lines{});
   s.domain->open = 0;
+  s.drains = {{.shape = BoxShape{{1.1, 0, 0}, {1.4, 1, 1}}}};
+  EXPECT_EQ(flowWarningsOf(s).size(), 2U) << "nothing reaches the drain";
+  s.drains = {{.shape = BoxShape{{0, 0, 0}, {1, 0.2, 1}}, .from = 6}};
+  EXPECT_EQ(flowWarningsOf(s).size(), 1U) << "it opens too late";
+  s.drains[0].from = 4;
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+  s.drains.clear();
   s.emitters[0].until = 4;
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+  s.domain.reset();
+  s.emitters[0].until.reset();
   EXPECT_EQ(flowWarningsOf(s), Lines{});
 }
 
