@@ -275,7 +275,7 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   vec2 hit_pixel = middle;
   float hit_depth = scene_depth[index];
   // Lengths of the ray where the scene is behind it and where it is in front of it, and by how much: its end lies between.
-  float before = 0.0, before_gap = min(hit_depth, farthest) - z, beyond = 0.0, beyond_gap = 0.0;
+  float before = 0.0, before_gap = max(min(hit_depth, farthest) - z, 0.0), beyond = 0.0, beyond_gap = 0.0;
   for (int k = 0; k < kRefractionSteps; ++k) {
     const vec3 at = point + bent * min(ray_length, inside) + sight * max(ray_length - inside, 0.0);
     if (at.z > view.near_depth) {
