@@ -8,6 +8,7 @@
 
 #include "fluid/rig.hpp"
 #include "fluid/sleep.hpp"
+#include "fluid/sleeping_trial.hpp"
 #include "fluid/snapshot.hpp"
 #include "support/meshes.hpp"
 
@@ -205,16 +206,9 @@ TEST_F(CombinationsTest, ThinWallsHoldMud) {
 
 /// Mud whose yield stress bears a layer or so, so soft that it may sleep.
 Trial softMud(glm::ivec3 room, int layers) {
-  Trial t = trial();
-  t.scene.fluid.spacing = 0.02;
-  t.scene.fluid.smoothing_ratio = 2;
+  Trial t = sleepingTrial(room, layers, kFrame);
   t.scene.fluid.yield_stress = 0.5;
   t.scene.fluid.viscosity = 0.01;
-  t.scene.solver = SolverSettings{};
-  t.scene.solver.sleep = true;
-  setWalls(t, glm::dvec3(room) * t.d());
-  t.step = kFrame;
-  t.x = block({room.x, layers, room.z}, t.d());
   t.scene.gravity_changes = {{1000, {2, -9.81, 0}}};  // bounds follow the strongest gravity: they stay the same with another time
   return t;
 }
