@@ -51,10 +51,12 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
   impl->rows_ = blocks * blockCells * blockCells;
   impl->corners_ = impl->rows_ * blockCells;
   const uint64_t reached = blocks * kMeshNeighbors;
+  impl->listed_ = std::min(particles * kMeshListedPerParticle, kReadTexels);
   impl->bytes = blocks * 4                                     // blocks
                 + reached * 4 * 4                              // keys of those reached
-                + (blocks * kMeshBlockBins + 2) * 4 * 4        // bins
+                + (blocks * kMeshBlockBins + 2) * 4 * 7        // bins
                 + particles * (16 * 4 + 4 * 8)                 // particles
+                + impl->listed_ * 4                            // lists of bins
                 + impl->corners_ * 4 * 3                       // field, cases, first vertices
                 + (impl->rows_ + 4) * 4 * 2                    // rows
                 + uint64_t{limits.maxVertices} * (16 * 3 + 4)  // vertices, edges
@@ -63,7 +65,7 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
     return meshError(ErrorKind::TooLarge, grouped(blocks) + " blocks, " + grouped(limits.maxVertices) + " vertices and " +
                                               grouped(limits.maxTriangles) + " triangles need " + grouped(impl->bytes) + " bytes; " + why);
   };
-  const uint64_t largest = std::max({impl->corners_ * 4, particles * 48, uint64_t{limits.maxVertices} * 16,
+  const uint64_t largest = std::max({impl->corners_ * 4, particles * 48, impl->listed_ * 4, uint64_t{limits.maxVertices} * 16,
                                      uint64_t{limits.maxTriangles} * 12, reached * 4, (blocks * kMeshBlockBins + 2) * 4});
   if (impl->corners_ >= kMaxMeshCorners || reached > KeySortDesc::kMaxCount || impl->rows_ + 1 > Scan::kMaxCount ||
       blocks * kMeshBlockBins + 1 > maxStartRange(device))
@@ -96,7 +98,8 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
   if (auto ok = scan(impl->rowScan_, impl->rows_ + 1); !ok) return ok.error();
 
   ModulePipelines make(device);
-  const bool texels = usesTexelReads(device, std::max({impl->corners_, 3 * particles, reached, uint64_t{limits.maxVertices}}));
+  const bool texels =
+      usesTexelReads(device, std::max({impl->corners_, 3 * particles, impl->listed_, reached, uint64_t{limits.maxVertices}}));
   const auto pipeline = [&](std::string_view shader) { return make.make(shader, texels, {{"BIN_CELLS", impl->binCells_}}); };
   impl->pipelines_ = {.keys = pipeline("mesher/keys"),
                       .flag = pipeline("mesher/flag"),
@@ -110,6 +113,8 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
                       .ellipsoids = pipeline("mesher/ellipsoids"),
                       .states = pipeline("mesher/states"),
                       .mixed = pipeline("mesher/mixed"),
+                      .nearArguments = pipeline("mesher/near_arguments"),
+                      .lists = pipeline("mesher/lists"),
                       .field = pipeline("mesher/field"),
                       .rows = pipeline("mesher/rows"),
                       .finish = pipeline("mesher/finish"),

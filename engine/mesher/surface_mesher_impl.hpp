@@ -27,8 +27,8 @@ class SurfaceMesherImpl {
   struct Pipelines {
     const ComputePipeline *keys = nullptr, *flag = nullptr, *compact = nullptr, *reach = nullptr, *dilate = nullptr, *arguments = nullptr,
                           *neighbors = nullptr, *binKeys = nullptr, *gather = nullptr, *ellipsoids = nullptr, *states = nullptr,
-                          *mixed = nullptr, *field = nullptr, *rows = nullptr, *finish = nullptr, *vertices = nullptr, *triangles = nullptr,
-                          *shade = nullptr;
+                          *mixed = nullptr, *nearArguments = nullptr, *lists = nullptr, *field = nullptr, *rows = nullptr,
+                          *finish = nullptr, *vertices = nullptr, *triangles = nullptr, *shade = nullptr;
   };
   struct Frame;
 
@@ -41,7 +41,7 @@ class SurfaceMesherImpl {
   void addMesh(Graph& graph, Frame& frame) const;
 
   uint32_t binCells_ = 0;  // along a bin
-  uint64_t rows_ = 0, corners_ = 0;
+  uint64_t rows_ = 0, corners_ = 0, listed_ = 0;
   std::array<uint32_t, 512> table_{};
   std::optional<KeySort> blockSort_, reachedSort_, binSort_;
   Scan particleScan_, reachedScan_, rowScan_;

@@ -1,4 +1,6 @@
 // The passes that turn a fluid's surface into a mesh, in order.
+#include <bit>
+
 #include "graph/shader_pass.hpp"
 #include "mesher/surface_mesher_impl.hpp"
 #include "render/particle_count.hpp"
@@ -9,8 +11,8 @@ namespace rill {
 struct SurfaceMesherImpl::Frame {
   MeshPush push{};
   BufferRef position, velocity, particleCount, counts, arguments, keys, sorted, order, ranks, reached, occupied, blocks, neighbors, binKeys,
-      binOrder, start, places, ellipsoids, surface, states, mixed, field, table, cases, rowVertices, rowTriangles, firstVertex, edges,
-      listed;
+      binOrder, start, places, ellipsoids, surface, states, mixed, nearBins, binLists, lists, field, table, cases, rowVertices,
+      rowTriangles, firstVertex, edges, listed;
   SurfaceMesh mesh;
 };
 
@@ -39,6 +41,9 @@ void SurfaceMesherImpl::add(Graph& graph, std::string_view name, const ComputePi
                {"surface", f.surface},
                {"states", f.states},
                {"mixed", f.mixed},
+               {"near_bins", f.nearBins},
+               {"bin_lists", f.binLists},
+               {"lists", f.lists},
                {"field", f.field},
                {"table", f.table},
                {"cases", f.cases},
@@ -73,6 +78,9 @@ void SurfaceMesherImpl::makeBuffers(Graph& graph, Frame& f) const {
   f.surface = graph.create("mesh surface bins", {bins * 4});
   f.states = graph.create("mesh states", {bins * 4});
   f.mixed = graph.create("mesh mixed bins", {bins * 4});
+  f.nearBins = graph.create("mesh near bins", {bins * 4});
+  f.binLists = graph.create("mesh bin lists", {bins * 8});
+  f.lists = graph.create("mesh lists", {listed_ * 4});
   f.field = graph.create("mesh field", {corners_ * 4});
   f.cases = graph.create("mesh cases", {corners_ * 4});
   f.firstVertex = graph.create("mesh first vertices", {corners_ * 4});
@@ -84,7 +92,13 @@ void SurfaceMesherImpl::makeBuffers(Graph& graph, Frame& f) const {
   f.mesh.velocities = graph.create("mesh velocities", {vertices * 16});
   f.mesh.indices = graph.create("mesh indices", {uint64_t{limits.maxTriangles} * 12});
   addFill(graph, "mesh clear",
-          {{&f.counts, 0}, {&f.arguments, 0}, {&f.reached, 0}, {&f.surface, 0}, {&f.rowVertices, 0}, {&f.rowTriangles, 0}});
+          {{&f.counts, 0},
+           {&f.arguments, 0},
+           {&f.reached, 0},
+           {&f.surface, 0},
+           {&f.rowVertices, 0},
+           {&f.rowTriangles, 0},
+           {&f.field, std::bit_cast<uint32_t>(1.0f)}});  // outside
   f.table = graph.create("mesh table", {sizeof table_});
   graph.pass("mesh table", [&](Pass& pass) {
     f.table = pass.write(f.table, Use::CopyTarget, true);
@@ -141,6 +155,8 @@ void SurfaceMesherImpl::addMesh(Graph& graph, Frame& f) const {
   add(graph, "mesh ellipsoids", pipelines_.ellipsoids, divideUp(limits.capacity, kMeshGroup), f);
   addCounted(graph, "mesh states", pipelines_.states, kMeshBinGroups, f);
   addCounted(graph, "mesh mixed", pipelines_.mixed, kMeshBinGroups, f);
+  add(graph, "mesh arguments", pipelines_.nearArguments, 1, f);
+  addCounted(graph, "mesh lists", pipelines_.lists, kMeshNearGroups, f);
   addCounted(graph, "mesh field", pipelines_.field, kMeshCornerGroups, f);
   addCounted(graph, "mesh rows", pipelines_.rows, kMeshRowGroups, f);
   f.rowVertices = rowScan_.addTo(graph, f.rowVertices);
@@ -168,6 +184,7 @@ SurfaceMesh SurfaceMesherImpl::addTo(Graph& graph, const FluidState& fluid) {
                 .max_blocks = limits.maxBlocks,
                 .max_vertices = limits.maxVertices,
                 .max_triangles = limits.maxTriangles,
+                .max_listed = static_cast<uint32_t>(listed_),
                 .list = 0,
                 .velocities = fluid.velocity == BufferRef{} ? 0u : 1u};
   frame.position = fluid.position;

@@ -1,5 +1,6 @@
 #version 460
 // Dispatch arguments of passes over blocks. Nothing is dispatched where blocks have no room.
+// NEAR: of passes over the bins near the surface.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
 
@@ -15,12 +16,16 @@ void put(uint at, uint invocations) {
 }
 
 void main() {
+#ifdef NEAR
+  put(kMeshNearGroups, counts[kMeshNearBins]);
+  put(kMeshCornerGroups, counts[kMeshNearBins] * kBinCorners);
+#else
   // With too many occupied blocks the others are not all known.
   const uint needed = max(counts[kMeshBlocksNeeded], counts[kMeshOccupied]);
   counts[kMeshBlocksNeeded] = needed;
   const uint blocks = needed <= mesh.max_blocks ? needed : 0u;
   put(kMeshNeighborGroups, blocks * kMeshNeighbors);
   put(kMeshBinGroups, blocks * kMeshBlockBins);
-  put(kMeshCornerGroups, blocks * kBlockCorners);
   put(kMeshRowGroups, blocks * kBlockRows);
+#endif
 }

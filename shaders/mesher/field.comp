@@ -1,5 +1,5 @@
 #version 460
-// Signed distance to the surface at each corner, in spacings, at most 1: from the sum of the particles' kernels.
+// Signed distance to the surface at each corner of the bins near it, in spacings, at most 1: from the sum of the particles' kernels.
 #extension GL_GOOGLE_include_directive : require
 #include "mesher/mesher.glsl"
 #include "shared/arrays.glsl"
@@ -9,11 +9,13 @@ READ_UINT(0, blocks)
 READ_UINT(1, start)
 READ_UINT(2, neighbors)
 READ_FLOAT4(3, ellipsoids)
-READ_UINT(4, states)
-layout(std430, set = 0, binding = 5) buffer Counts { uint counts[]; };
-layout(std430, set = 0, binding = 6) writeonly buffer Field { float field[]; };
+READ_UINT(4, near_bins)
+READ_UINT2(5, bin_lists)
+READ_UINT(6, lists)
+layout(std430, set = 0, binding = 7) buffer Counts { uint counts[]; };
+layout(std430, set = 0, binding = 8) writeonly buffer Field { float field[]; };
 #include "mesher/mesh_kernel.glsl"
-#include "mesher/walk.glsl"
+#include "mesher/near.glsl"
 
 vec3 point;
 float sum = 0.0;
@@ -28,15 +30,10 @@ void visit(uint slot) {
 }
 
 void main() {
-  const uint i = flatInvocation(), block = i / kBlockCorners;
-  if (block >= counts[kMeshBlocksNeeded]) return;
-  const uint corner = i % kBlockCorners, bin = corner / kBinCorners;
-  const uint state = statesAt(block * kMeshBlockBins + bin);
-  if (state != kMeshNear) {
-    field[i] = state == kMeshInside ? -1.0 : 1.0;
-    return;
-  }
-  point = vec3(blockOf(blocksAt(block)) * int(kBlockCells) + ivec3(cornerOf(corner))) * mesh.cell;
-  if (!walk(block, ivec3(binOf(bin)), float(BIN_CELLS - 1u) * mesh.cell, kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
+  const uint k = flatInvocation();
+  if (k / kBinCorners >= counts[kMeshNearBins]) return;
+  const uint bin = near_binsAt(k / kBinCorners), block = bin / kMeshBlockBins, i = bin * kBinCorners + k % kBinCorners;
+  point = vec3(blockOf(blocksAt(block)) * int(kBlockCells) + ivec3(cornerOf(i % kBlockCorners))) * mesh.cell;
+  if (!visitNear(block, binOf(bin % kMeshBlockBins), float(BIN_CELLS - 1u) * mesh.cell, kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
   field[i] = meshDistance(sum);
 }

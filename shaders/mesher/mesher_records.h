@@ -21,6 +21,9 @@ RILL_CONST float kMeshReach = 2.625f;        // 1.5 kMeshStretch: largest radius
 RILL_CONST float kMeshEdgeMargin = 0.001f;   // vertices keep this part of an edge from its ends
 RILL_CONST uint kMeshSweeps = 4u;            // of the iteration for eigenvectors
 RILL_CONST uint kMeshMaxVisits = 4096u;      // particles that one sum looks at
+RILL_CONST uint kMeshMaxListed = 96u;        // of the list of a bin
+RILL_CONST uint kMeshListedPerParticle = 96u;  // entries of all lists that have room: water in motion has 40, a thin sheet 90
+RILL_CONST uint kMeshMaxNearBins = 1u << 25; // with lists: the number of their entries fits in a word
 
 // The grid: bins of whole cells, at least a spacing wide; blocks of 4 x 4 x 4 bins.
 RILL_CONST uint kMeshGroup = 64u;        // invocations of a workgroup
@@ -45,16 +48,19 @@ RILL_CONST uint kMeshBlocksNeeded = 8u;
 RILL_CONST uint kMeshOccupied = 9u;   // blocks with particles
 RILL_CONST uint kMeshTooFar = 10u;    // particles outside the grid
 RILL_CONST uint kMeshBoundHits = 11u; // sums that kMeshMaxVisits has cut off
-RILL_CONST uint kMeshCountWords = 12u;
+RILL_CONST uint kMeshNearBins = 12u;  // not for hosts: bins near the surface,
+RILL_CONST uint kMeshListed = 13u;    // and entries of their lists
+RILL_CONST uint kMeshCountWords = 14u;
 
 // Dispatch arguments, three words each.
 RILL_CONST uint kMeshNeighborGroups = 0u;
 RILL_CONST uint kMeshBinGroups = 3u;
-RILL_CONST uint kMeshCornerGroups = 6u;
+RILL_CONST uint kMeshNearGroups = 6u;
 RILL_CONST uint kMeshRowGroups = 9u;
 RILL_CONST uint kMeshVertexGroups = 12u;
 RILL_CONST uint kMeshOutputGroups = 15u;  // rows, if all of the mesh has room
-RILL_CONST uint kMeshArgumentWords = 18u;
+RILL_CONST uint kMeshCornerGroups = 18u;  // of bins near the surface
+RILL_CONST uint kMeshArgumentWords = 21u;
 
 struct MeshPush {
   float spacing;  // m
@@ -64,6 +70,7 @@ struct MeshPush {
   uint max_blocks;
   uint max_vertices;
   uint max_triangles;
+  uint max_listed;
   uint list;      // of mesh compact: the word of the counts
   uint velocities;  // 0: there are none
 };

@@ -13,13 +13,15 @@ layout(std430, set = 0, binding = 4) readonly buffer Field { float field[]; };
 READ_UINT(5, edges)
 READ_UINT(6, order)
 READ_FLOAT4(7, velocity)
-layout(std430, set = 0, binding = 8) buffer Counts { uint counts[]; };
-layout(std430, set = 0, binding = 9) writeonly buffer VertexPosition { vec4 vertex_position[]; };
-layout(std430, set = 0, binding = 10) writeonly buffer VertexNormal { vec4 vertex_normal[]; };
-layout(std430, set = 0, binding = 11) writeonly buffer VertexVelocity { vec4 vertex_velocity[]; };
+READ_UINT2(8, bin_lists)
+READ_UINT(9, lists)
+layout(std430, set = 0, binding = 10) buffer Counts { uint counts[]; };
+layout(std430, set = 0, binding = 11) writeonly buffer VertexPosition { vec4 vertex_position[]; };
+layout(std430, set = 0, binding = 12) writeonly buffer VertexNormal { vec4 vertex_normal[]; };
+layout(std430, set = 0, binding = 13) writeonly buffer VertexVelocity { vec4 vertex_velocity[]; };
 #include "mesher/corners.glsl"
 #include "mesher/mesh_kernel.glsl"
-#include "mesher/walk.glsl"
+#include "mesher/near.glsl"
 
 vec3 point;
 float sum = 0.0;
@@ -52,7 +54,7 @@ void main() {
   const float t = clamp(a / (a - b), kMeshEdgeMargin, 1.0 - kMeshEdgeMargin);
   const vec3 base = vec3(blockOf(blocksAt(block)) * int(kBlockCells) + ivec3(corner)) * mesh.cell, along = vec3(step) * mesh.cell;
   point = base + t * along;
-  if (!walk(block, ivec3(corner / BIN_CELLS), binSide(), kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
+  if (!visitNear(block, corner / BIN_CELLS, binSide(), kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
 
   // One step of Newton's method along the edge
   const float change = dot(slope, along), refined = abs(change) > 1e-3 ? t + (0.5 - sum) / change : t;

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/words.hpp"
+#include "mesher/mesher_records.h"
 #include "reference/surface_mesh.hpp"
 #include "support/gpu_test.hpp"
 
@@ -172,6 +173,25 @@ TEST_F(SurfaceMesherTest, MatchesReferenceOfBulk) {  // where the field is not s
   const SurfaceMesh expected = reference::surfaceMesh(points, {}, 0.5);
   EXPECT_EQ(made.mesh.velocities.size(), made.mesh.positions.size());
   expectLikeReference(made, expected);
+}
+
+// Sums are over lists of bins, or by walks where a bin has too many particles for a list, or all lists together have no room.
+TEST_F(SurfaceMesherTest, MatchesReferenceWithoutLists) {
+  Points dense = block(9, 8, 8), loose;
+  for (auto& p : dense) p *= 0.45;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> in(-6, 6);
+  for (int k = 0; k < 500; ++k) loose.push_back({in(random), in(random), in(random)});
+  for (const Points* points : {&dense, &loose}) {
+    const Made made = make(*points);
+    const uint32_t listed = made.counts[kMeshListed];
+    if (points == &dense)
+      EXPECT_LT(listed, kMeshMaxListed / 4 * made.counts[kMeshNearBins]);  // of bins with a list; most have none
+    else
+      EXPECT_GT(listed, kMeshListedPerParticle * points->size());
+    expectClosed(made.mesh);
+    expectLikeReference(made, reference::surfaceMesh(*points, {}, 0.5));
+  }
 }
 
 TEST_F(SurfaceMesherTest, KeepsVolume) {

@@ -1,0 +1,16 @@
+// The particles near points of a bin: those of its list (lists.comp), or of a walk where it has none. The including shader
+// makes visit(slot), bin_listsAt(), listsAt() and `counts` before.
+#include "mesher/walk.glsl"
+
+// As walk().
+bool visitNear(uint block, uvec3 bin, float span, float reach) {
+  const uvec2 list = bin_listsAt(block * kMeshBlockBins + binIn(bin));
+  const bool listed = list.y != kMeshNone && counts[kMeshListed] <= mesh.max_listed && counts[kMeshNearBins] <= kMeshMaxNearBins;
+  uint k = list.x;
+  const uint end = listed ? list.x + list.y : list.x;
+  LOOP_WHILE (k < end) {
+    visit(listsAt(k));
+    ++k;
+  } LOOP_END(k < end);
+  return listed || walk(block, ivec3(bin), span, reach);
+}
