@@ -137,6 +137,17 @@ double fastestViscosity(const Scene& scene) {
   return viscosity > 0 ? largestKinematicViscosity(scene) * densestFluid(scene) / viscosity : 0;
 }
 
+void warnOfKeysWithoutEffect(const Scene& scene, FluidSetup& setup) {
+  const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  for (size_t k = 0; k < fluids.size(); ++k) {
+    const std::string key = scene.fluids.empty() ? "fluid" : "fluids." + fluids[k].name;
+    if (fluids[k].flowIndex != 1 && fluids[k].viscosity == 0)
+      setup.warnings.push_back(key + ".flow_index: has no effect: its viscosity is 0, expected more (Pa s)");
+    if (fluids[k].diffusion > 0 && fluids.size() == 1)
+      setup.warnings.push_back(key + ".diffusion: has no effect in a scene with one fluid, expected two or more in fluids");
+  }
+}
+
 Float4 unmixed(const FluidParams& params, uint8_t fluid) {
   const std::array diffusing{params.diffusing0, params.diffusing1, params.diffusing2, params.diffusing3};
   return unmixed(std::span<const uint32_t>(diffusing), fluid);
@@ -165,7 +176,8 @@ void addFluids(const Scene& scene, FluidSetup& setup) {
     if (ratio > kMaxDensityRatio)
       setup.warnings.push_back("fluids." + fluids[k].name + ".density: found " + roundedNumber(fluids[k].density) + " kg/m^3, " +
                                roundedNumber(ratio) + " times less than the densest fluid; expected at most " +
-                               roundedNumber(kMaxDensityRatio) + " times; it is simulated with this ratio");
+                               roundedNumber(kMaxDensityRatio) + " times; it is simulated with " +
+                               roundedNumber(densest / kMaxDensityRatio));
     setup.params.*kViscosities[k] = viscosity > 0 ? f(fluids[k].viscosity / viscosity) : 0;
     setup.params.*kTensions[k] = tension > 0 ? f(fluids[k].surfaceTension / tension) : 0;
   }

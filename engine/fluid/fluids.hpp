@@ -45,6 +45,9 @@ Float4 unmixed(const FluidParams& params, uint8_t fluid);
 /// Sets FluidSetup::shearViscosity, and what shaders need of fluids whose viscosity shear changes. Without one there is nothing.
 void addShearViscosity(const Scene& scene, FluidSetup& setup);
 
+/// Of a flow index without viscosity, and of diffusion in one fluid.
+void warnOfKeysWithoutEffect(const Scene& scene, FluidSetup& setup);
+
 /// Sets FluidSetup::fluids and what shaders need of several fluids, and warns of density ratios beyond 1000. With one there is nothing.
 void addFluids(const Scene& scene, FluidSetup& setup);
 

@@ -204,6 +204,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   addFluids(scene, setup);
   addTension(scene, setup);
   addShearViscosity(scene, setup);
+  warnOfKeysWithoutEffect(scene, setup);
   setViscosity(scene, kernel, setup);
   setNoSlip(scene, kernel, setup);
   setNoiseDamping(scene, kernel, setup);

@@ -197,5 +197,15 @@ TEST_F(DiffusionTest, EmittersAddWhatHasNotMixed) {
   for (size_t i = t.x.size(); i < s.concentration.size(); ++i) EXPECT_NEAR(s.concentration[i].x, 1, 1e-5) << i;
 }
 
+TEST_F(DiffusionTest, WarnsOfOneFluidThatDiffuses) {
+  Trial t = trial();
+  t.x = block({3, 3, 3}, t.d());
+  t.scene.fluids = {{.name = "milk", .diffusion = 1e-4}};
+  const std::string warning = "fluids.milk.diffusion: has no effect in a scene with one fluid, expected two or more in fluids";
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), warning), 1);
+  t.scene.fluids.push_back({.name = "water"});
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), warning), 0);
+}
+
 }  // namespace diffusion_test
 }  // namespace rill::test

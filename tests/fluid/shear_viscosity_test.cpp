@@ -179,5 +179,16 @@ TEST_F(ShearViscosityTest, NewtonianFluidHasNoPassOfIt) {
   EXPECT_FALSE(setup->shearViscosity);
 }
 
+TEST_F(ShearViscosityTest, WarnsOfAFlowIndexWithoutViscosity) {
+  Trial t = mud(0, 0, 0.5);
+  const std::string why = ".flow_index: has no effect: its viscosity is 0, expected more (Pa s)";
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), "fluid" + why), 1);
+  t.scene.fluids = {{.name = "water", .flow_index = 1}, {.name = "mud"}};
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), "fluids.mud" + why), 1);
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), "fluids.water" + why), 0);
+  t.scene.fluids[1].viscosity = 1;
+  EXPECT_EQ(std::ranges::count(start(t)->fluid().warnings(), "fluids.mud" + why), 0);
+}
+
 }  // namespace shear_viscosity_test
 }  // namespace rill::test
