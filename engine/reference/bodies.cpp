@@ -149,11 +149,11 @@ void Bodies::predict(double time, double dt, const glm::dvec3& gravity, std::spa
     glm::dvec3 momentum = inertiaAt(body.inertia, m.rotation) * m.angularVelocity + impulse.angular;
     for (const Pull& pull : pulls)
       if (pull.solid == body.solid && !atRest) applyPull(pull, body, dt, m.velocity, momentum);
-    glm::dvec3 w = inverseInertia(inertiaAt(body.inertia, m.rotation), body.locked) * momentum;
-    w = inverseInertia(inertiaAt(body.inertia, turned(m.rotation, dt * w)), body.locked) * momentum;
-    m.angularVelocity = w;
+    const auto turning = [&](const glm::dquat& q) { return inverseInertia(inertiaAt(body.inertia, q), body.locked) * momentum; };
+    const glm::dvec3 halfway = turning(turned(m.rotation, 0.5 * dt * turning(m.rotation)));
     m.center += dt * m.velocity;
-    m.rotation = turned(m.rotation, dt * w);
+    m.rotation = turned(m.rotation, dt * halfway);
+    m.angularVelocity = turning(m.rotation);
   }
   atRest_ = atRest;
   poses_ = std::move(poses);

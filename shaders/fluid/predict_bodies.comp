@@ -1,6 +1,7 @@
 #version 460
 // Where bodies are at the end of the substep at hand, before contacts and the fluid's solve: by their velocity, gravity, the load of the
-// fluid's warm start, and the host's pulls. Angular momentum is kept: the angular velocity is that at the substep's end. One workgroup.
+// fluid's warm start, and the host's pulls. They turn by the angular velocity of the substep's middle: so tumbling keeps its energy. One
+// workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/solid_loads.h"
@@ -25,9 +26,9 @@ PoseRecord predictedPose(uint n, BodyRecord b, float dt) {
   vec3 momentum = inertiaAt(b, q) * turning + dt * moment;
   mat3 inverted = inverseInertiaAt(b, q);
   if (advances) addPulls(n, b, q, inverted, dt, v, momentum);
-  vec3 w = inverted * momentum;
-  w = inverseInertiaAt(b, turned(q, dt * w)) * momentum;
-  return poseOf(centerOf(s) + dt * v, turned(q, dt * w), v, w);
+  vec3 halfway = inverseInertiaAt(b, turned(q, 0.5 * dt * (inverted * momentum))) * momentum;
+  vec4 after = turned(q, dt * halfway);
+  return poseOf(centerOf(s) + dt * v, after, v, inverseInertiaAt(b, after) * momentum);
 }
 
 void main() {
