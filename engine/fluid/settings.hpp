@@ -34,8 +34,8 @@ inline constexpr size_t kSlipWords = sizeof(SlipRecord) / sizeof(uint32_t);
 /// Words of a PressureProbeRecord.
 inline constexpr size_t kPressureProbeWords = sizeof(PressureProbeRecord) / sizeof(uint32_t);
 
-/// Times that the contacts of bodies are solved in a substep.
-inline constexpr uint32_t kContactIterations = 4;
+/// Times that the contacts of bodies are solved in a substep. Weight passes from body to body once each time.
+constexpr uint32_t contactIterations(size_t bodies) { return bodies > 1 ? 16 : 4; }
 
 /// A solid that the host moves.
 struct DrivenSolid {

@@ -47,7 +47,7 @@ void FluidImpl::declareBodies(Graph& graph) {
   declare(graph, FluidPass::PredictBodies, Start::Density);
   declare(graph, FluidPass::TouchedSolids, Start::Density);
   declare(graph, FluidPass::CountContacts, Start::Density, ContactPush{});
-  for (uint32_t iteration = 0; iteration < kContactIterations; ++iteration) {
+  for (uint32_t iteration = 0; iteration < contactIterations(setup.params.bodyCount); ++iteration) {
     declare(graph, FluidPass::Contacts, Start::Density, ContactPush{iteration});
     declare(graph, FluidPass::PushBodies, Start::Density);
   }

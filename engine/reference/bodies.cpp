@@ -160,7 +160,8 @@ void Bodies::predict(double time, double dt, const glm::dvec3& gravity, std::spa
   for (const RigidBody& body : bodies_) poses_[body.solid] = poseOf(body, body.predicted);
   findTouched();
   countContacts(dt);
-  for (uint32_t iteration = 0; iteration < kContactIterations; ++iteration) solveContacts(dt, glm::length(gravity), iteration == 0);
+  for (uint32_t iteration = 0; iteration < contactIterations(bodies_.size()); ++iteration)
+    solveContacts(dt, glm::length(gravity), iteration == 0);
   surface_ = {};
 }
 

@@ -72,6 +72,29 @@ TEST_F(BodiesTest, PyramidsStand) {
   }
 }
 
+// Heavy crates on light ones, and a tower of equal ones.
+TEST_F(BodiesTest, LowestCratesBearTheirStacks) {
+  constexpr double kEdge = 0.1;
+  const std::vector<std::vector<double>> stacks = {{300, 2000, 2000}, {50, 2000}, std::vector<double>(16, 500)};
+  Trial t = trial();
+  t.capacity = 1;
+  setWalls(t, {1, 2, 0.5});
+  t.step = 4e-3;
+  double x = 0.2;
+  for (const std::vector<double>& densities : stacks) {
+    for (size_t k = 0; k < densities.size(); ++k)
+      t.scene.solids.push_back(crate({x, kEdge * (0.5 + double(k)), 0.25}, kEdge, densities[k]));
+    x += 0.3;
+  }
+  auto run = start(t);
+  runFor(*run, 1);
+  size_t n = 0;
+  for (const std::vector<double>& densities : stacks)
+    for (size_t k = 0; k < densities.size(); ++k, ++n)
+      EXPECT_LT(glm::length(vec(motion(*run, n).center) - vec(centerOf(t.scene.solids[n]))), 0.01 * double(k + 1) * kEdge + 0.03 * kEdge)
+          << n;
+}
+
 TEST_F(BodiesTest, CountMoreSolidsThanOneTouches) {
   Trial t = trial();
   t.capacity = 1;
