@@ -40,14 +40,15 @@ class RegionsAtSolidsTest : public RegionsTest {
     return state;
   }
   /// Once a third of all sleep, or after 15 s.
-  static Asleep asleepAtPillar(Run& run) {
+  static Asleep asleepAtPillar(Run& run, const std::vector<float>& pillars = {0.22F}) {
     Asleep found;
     for (int k = 0; k < 60 && 3 * found.all < run.fluid().count(); ++k) {
       frames(run, 0.25);
       const FluidSnapshot s = run.saved();
       found = {};
       for (size_t i = 0; i < s.rest.size(); ++i) {
-        const bool beside = std::abs(s.position[i].x - 0.22F) < 0.06F, asleep = s.rest[i] != kZoneMoves;
+        const bool beside = std::ranges::any_of(pillars, [&](float x) { return std::abs(s.position[i].x - x) < 0.06F; });
+        const bool asleep = s.rest[i] != kZoneMoves;
         found.beside += beside;
         found.atPillar += beside && asleep;
         found.all += asleep;
@@ -66,6 +67,17 @@ TEST_F(RegionsAtSolidsTest, FluidStaysAwakeAtSolidsThatMoveOrBearLoads) {
   loaded.loads = true;
   EXPECT_EQ(asleepAtPillar(*start(driven)).atPillar, 0u);
   EXPECT_EQ(asleepAtPillar(*start(loaded)).atPillar, 0u);
+}
+
+// One whose keyframes are over may be given others, and a body that is held will be released.
+TEST_F(RegionsAtSolidsTest, FluidStaysAwakeAtKeyframedSolidsAndHeldBodies) {
+  Trial t = channelWithPillar();
+  t.scene.solids.push_back(slab({0.34, -0.1, -0.1}, {0.38, 0.4, 0.4}));
+  t.scene.solids[0].motion = {{0.5, {0.005, 0, 0}}, {1, {0, 0, 0}}};
+  t.scene.solids[1].body = Body{.density = 500, .from = 100};
+  t.x.clear();
+  addOutsideSolids(t, block({kRoom.x, kLayers, kRoom.z}, t.d()));
+  EXPECT_EQ(asleepAtPillar(*start(t), {0.22F, 0.36F}).atPillar, 0u);
 }
 
 TEST_F(RegionsAtSolidsTest, FluidSleepsAtSolidsThatCannotMove) {
@@ -124,6 +136,29 @@ TEST_F(RegionsAtSolidsTest, ApproachingSolidWakesRegions) {
   EXPECT_LT(least, t.x.size());
   EXPECT_GT(largest, 0.2);
   EXPECT_LT(largest, 10) << "N; its buoyancy is 1.4";
+}
+
+// A box that is held over what sleeps falls into it: only its end of the channel wakes at once, and it floats as in fluid awake.
+TEST_F(RegionsAtSolidsTest, ReleasedBodyWakesRegions) {
+  Trial t = channel();
+  t.scene.emitters.clear();
+  t.capacity = 0;
+  Solid box = slab({0.1, 0.18, 0.01}, {0.16, 0.24, 0.07});
+  box.body = Body{.density = 500, .from = kOpens};
+  t.scene.solids = {box};
+  auto run = start(t);
+  frames(*run, kOpens);
+  EXPECT_EQ(sleeping(*run), t.x.size());
+  const auto middle = [&] {
+    run->read({});
+    return run->fluid().bodies()[0].center.y;
+  };
+  EXPECT_NEAR(middle(), 0.21, 1e-6);
+  frames(*run, 0.15);
+  EXPECT_GT(sleeping(*run), 0u);
+  EXPECT_LT(sleeping(*run), t.x.size());
+  frames(*run, 0.8);
+  EXPECT_NEAR(middle(), kLayers * t.d() + 0.5 * std::pow(0.06, 3) / (kRoom.x * kRoom.z * t.d() * t.d()), 0.01);
 }
 
 }  // namespace regions_test
