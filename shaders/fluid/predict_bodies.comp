@@ -1,7 +1,7 @@
 #version 460
 // Where bodies are at the end of the substep at hand, before contacts and the fluid's solve: by their velocity, gravity, the load of the
-// fluid's warm start, and the host's pulls. They turn by the angular velocity of the substep's middle: so tumbling keeps its energy. One
-// workgroup.
+// fluid's warm start, and the host's pulls. They turn by the angular velocity of the substep's middle, which keeps the energy of tumbling
+// to second order. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/solid_loads.h"
