@@ -15,6 +15,7 @@
 namespace rill {
 namespace {
 
+static_assert(size_t(MeshCount::Words) <= kMeshCountWords);
 constexpr uint32_t kMaxMeshParticles = 1u << 22;
 constexpr uint64_t kMaxMeshCorners = 1u << 30;  // an edge is a corner and two bits for its axis
 
@@ -51,7 +52,11 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
   impl->rows_ = blocks * blockCells * blockCells;
   impl->corners_ = impl->rows_ * blockCells;
   const uint64_t reached = blocks * kMeshNeighbors;
-  impl->listed_ = std::min(particles * kMeshListedPerParticle, kReadTexels);
+  // Without room for lists sums are walks, so lists are not why a mesher is refused or arrays are not read as texels.
+  const uint64_t listed = std::min({particles * kMeshListedPerParticle, device.info().maxBufferBytes / 4, uint64_t{UINT32_MAX}});
+  const uint64_t texelListed = std::min(listed, kReadTexels);
+  const bool texels = usesTexelReads(device, std::max({impl->corners_, 3 * particles, texelListed, reached, uint64_t{limits.maxVertices}}));
+  impl->listed_ = texels ? texelListed : listed;
   impl->bytes = blocks * 4                                     // blocks
                 + reached * 4 * 4                              // keys of those reached
                 + (blocks * kMeshBlockBins + 2) * 4 * 7        // bins
@@ -65,8 +70,8 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
     return meshError(ErrorKind::TooLarge, grouped(blocks) + " blocks, " + grouped(limits.maxVertices) + " vertices and " +
                                               grouped(limits.maxTriangles) + " triangles need " + grouped(impl->bytes) + " bytes; " + why);
   };
-  const uint64_t largest = std::max({impl->corners_ * 4, particles * 48, impl->listed_ * 4, uint64_t{limits.maxVertices} * 16,
-                                     uint64_t{limits.maxTriangles} * 12, reached * 4, (blocks * kMeshBlockBins + 2) * 4});
+  const uint64_t largest = std::max({impl->corners_ * 4, particles * 48, uint64_t{limits.maxVertices} * 16,
+                                     uint64_t{limits.maxTriangles} * 12, reached * 4, blocks * kMeshBlockBins * 8});
   if (impl->corners_ >= kMaxMeshCorners || reached > KeySortDesc::kMaxCount || impl->rows_ + 1 > Scan::kMaxCount ||
       blocks * kMeshBlockBins + 1 > maxStartRange(device))
     return tooLarge("expected at most " + grouped(kMaxMeshCorners) + " corners of cells, found " + grouped(impl->corners_));
@@ -98,8 +103,6 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
   if (auto ok = scan(impl->rowScan_, impl->rows_ + 1); !ok) return ok.error();
 
   ModulePipelines make(device);
-  const bool texels =
-      usesTexelReads(device, std::max({impl->corners_, 3 * particles, impl->listed_, reached, uint64_t{limits.maxVertices}}));
   const auto pipeline = [&](std::string_view shader) { return make.make(shader, texels, {{"BIN_CELLS", impl->binCells_}}); };
   impl->pipelines_ = {.keys = pipeline("mesher/keys"),
                       .flag = pipeline("mesher/flag"),

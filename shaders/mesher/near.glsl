@@ -1,5 +1,5 @@
-// The particles near points of a bin: those of its list (lists.comp), or of a walk where it has none. The including shader
-// makes visit(slot), bin_listsAt(), listsAt() and `counts` before.
+// The particles near points of a bin: those of its list (lists.comp), or of a walk where it has none. The including shader makes
+// bin_listsAt(), listsAt(), `counts` and what walk.glsl needs before, and visit(slot) after.
 #include "mesher/walk.glsl"
 
 // As walk().

@@ -177,18 +177,21 @@ TEST_F(SurfaceMesherTest, MatchesReferenceOfBulk) {  // where the field is not s
 
 // Sums are over lists of bins, or by walks where a bin has too many particles for a list, or all lists together have no room.
 TEST_F(SurfaceMesherTest, MatchesReferenceWithoutLists) {
-  Points dense = block(9, 8, 8), loose;
-  for (auto& p : dense) p *= 0.45;
+  Points dense = block(5, 5, 4), loose;
+  for (auto& p : dense) p = 0.49 + 1e-4 * p;  // all at the center of a bin: they reach each bin around
+  dense.push_back({0.8, 0.5, 0.5});           // whose neighbors' mean lies aside, so the bins are near the surface
   std::mt19937 random(3);
   std::uniform_real_distribution<double> in(-6, 6);
   for (int k = 0; k < 500; ++k) loose.push_back({in(random), in(random), in(random)});
   for (const Points* points : {&dense, &loose}) {
-    const Made made = make(*points);
+    const Made made = make(*points), again = make(*points);
     const uint32_t listed = made.counts[kMeshListed];
     if (points == &dense)
-      EXPECT_LT(listed, kMeshMaxListed / 4 * made.counts[kMeshNearBins]);  // of bins with a list; most have none
+      EXPECT_EQ(listed, 0u);
     else
       EXPECT_GT(listed, kMeshListedPerParticle * points->size());
+    EXPECT_GT(made.counts[kMeshNearBins], 0u);
+    EXPECT_TRUE(made.bytes == again.bytes);
     expectClosed(made.mesh);
     expectLikeReference(made, reference::surfaceMesh(*points, {}, 0.5));
   }

@@ -47,7 +47,7 @@ struct SurfaceMesh {
   BufferRef normals;     ///< unit length, out of the fluid
   BufferRef velocities;  ///< m/s; 0 if the state has none
   BufferRef indices;     ///< uint, three a triangle, counter-clockwise seen from outside the fluid
-  BufferRef counts;      ///< uint[MeshCount::Words]
+  BufferRef counts;      ///< uint[], MeshCount::Words of them and some for the passes
 };
 
 class SurfaceMesherImpl;
