@@ -139,13 +139,20 @@ double fastestViscosity(const Scene& scene) {
 
 void warnOfKeysWithoutEffect(const Scene& scene, FluidSetup& setup) {
   const std::vector<ResolvedFluid> fluids = resolvedFluids(scene);
+  size_t inherit = 0, viscous = 0;  // fluids that take fluid.flow_index, and those of them with viscosity
   for (size_t k = 0; k < fluids.size(); ++k) {
     const std::string key = scene.fluids.empty() ? "fluid" : "fluids." + fluids[k].name;
-    if (fluids[k].flowIndex != 1 && fluids[k].viscosity == 0)
+    if (scene.fluids.empty() || !scene.fluids[k].flow_index) {
+      ++inherit;
+      viscous += fluids[k].viscosity > 0 ? 1 : 0;
+    } else if (fluids[k].flowIndex != 1 && fluids[k].viscosity == 0) {
       setup.warnings.push_back(key + ".flow_index: has no effect: its viscosity is 0, expected more (Pa s)");
+    }
     if (fluids[k].diffusion > 0 && fluids.size() == 1)
       setup.warnings.push_back(key + ".diffusion: has no effect in a scene with one fluid, expected two or more in fluids");
   }
+  if (scene.fluid.flow_index != 1 && inherit > 0 && viscous == 0)
+    setup.warnings.push_back("fluid.flow_index: has no effect: the viscosity of every fluid that has it is 0, expected more (Pa s)");
 }
 
 Float4 unmixed(const FluidParams& params, uint8_t fluid) {
@@ -177,7 +184,7 @@ void addFluids(const Scene& scene, FluidSetup& setup) {
       setup.warnings.push_back("fluids." + fluids[k].name + ".density: found " + roundedNumber(fluids[k].density) + " kg/m^3, " +
                                roundedNumber(ratio) + " times less than the densest fluid; expected at most " +
                                roundedNumber(kMaxDensityRatio) + " times; it is simulated with " +
-                               roundedNumber(densest / kMaxDensityRatio));
+                               roundedNumber(densest / kMaxDensityRatio) + " kg/m^3");
     setup.params.*kViscosities[k] = viscosity > 0 ? f(fluids[k].viscosity / viscosity) : 0;
     setup.params.*kTensions[k] = tension > 0 ? f(fluids[k].surfaceTension / tension) : 0;
   }
