@@ -34,6 +34,6 @@ void main() {
   if (k / kBinCorners >= counts[kMeshNearBins]) return;
   const uint bin = near_binsAt(k / kBinCorners), block = bin / kMeshBlockBins, i = bin * kBinCorners + k % kBinCorners;
   point = vec3(blockOf(blocksAt(block)) * int(kBlockCells) + ivec3(cornerOf(i % kBlockCorners))) * mesh.cell;
-  if (!visitNear(block, binOf(bin % kMeshBlockBins), float(BIN_CELLS - 1u) * mesh.cell, kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
+  if (!visitNear(block, binOf(bin % kMeshBlockBins))) atomicAdd(counts[kMeshBoundHits], 1u);
   field[i] = meshDistance(sum);
 }

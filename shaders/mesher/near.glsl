@@ -1,9 +1,9 @@
-// The particles near points of a bin: those of its list (lists.comp), or of a walk where it has none. The including shader makes
-// bin_listsAt(), listsAt(), `counts` and what walk.glsl needs before, and visit(slot) after.
+// The particles that may reach points of a bin: those of its list (lists.comp), or of a walk where it has none. The including shader
+// makes bin_listsAt(), listsAt(), `counts` and what walk.glsl needs before, and visit(slot) after.
 #include "mesher/walk.glsl"
 
-// As walk().
-bool visitNear(uint block, uvec3 bin, float span, float reach) {
+// False if kMeshMaxVisits has cut a walk off.
+bool visitNear(uint block, uvec3 bin) {
   const uvec2 list = bin_listsAt(block * kMeshBlockBins + binIn(bin));
   const bool listed = list.y != kMeshNone && counts[kMeshListed] <= mesh.max_listed && counts[kMeshNearBins] <= kMeshMaxNearBins;
   uint k = list.x;
@@ -12,5 +12,5 @@ bool visitNear(uint block, uvec3 bin, float span, float reach) {
     visit(listsAt(k));
     ++k;
   } LOOP_END(k < end);
-  return listed || walk(block, ivec3(bin), span, reach);
+  return listed || walk(block, ivec3(bin), binSide(), kMeshReach);
 }

@@ -54,7 +54,7 @@ void main() {
   const float t = clamp(a / (a - b), kMeshEdgeMargin, 1.0 - kMeshEdgeMargin);
   const vec3 base = vec3(blockOf(blocksAt(block)) * int(kBlockCells) + ivec3(corner)) * mesh.cell, along = vec3(step) * mesh.cell;
   point = base + t * along;
-  if (!visitNear(block, corner / BIN_CELLS, binSide(), kMeshReach)) atomicAdd(counts[kMeshBoundHits], 1u);
+  if (!visitNear(block, corner / BIN_CELLS)) atomicAdd(counts[kMeshBoundHits], 1u);
 
   // One step of Newton's method along the edge
   const float change = dot(slope, along), refined = abs(change) > 1e-3 ? t + (0.5 - sum) / change : t;
