@@ -14,7 +14,12 @@ double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
 
 void ReferenceSolver::dampNoise(double dt) {
   const double c = std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxNoiseDamping});
-  add(-c, meanDifference(meanDifference(state.velocity)));
+  std::vector<glm::dvec3> noise = meanDifference(state.velocity);
+  for (size_t i = 0; i < size() && settings.sparedFlow > 0; ++i) {
+    const glm::dvec3 mean = state.velocity[i] + noise[i];
+    noise[i] /= 1 + std::pow(glm::dot(mean, mean) / (settings.sparedFlow * settings.sparedFlow + glm::dot(noise[i], noise[i])), 2);
+  }
+  add(-c, meanDifference(noise));
 }
 
 std::vector<glm::dvec3> ReferenceSolver::meanDifference(const std::vector<glm::dvec3>& v) const {

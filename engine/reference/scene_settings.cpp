@@ -8,6 +8,7 @@
 #include "fill/mouth.hpp"
 #include "fluid/fluids.hpp"
 #include "fluid/stability_limits.hpp"
+#include "shared/fluid_records.h"
 
 namespace rill::reference {
 namespace {
@@ -84,6 +85,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.noSlipWalls = scene.domain && !scene.domain->slip;
   s.meltingTime = meltingTime(scene);
   s.viscosityAtRest = setup.artificialViscosity;
+  s.sparedFlow = double{kSparedFlow} * std::sqrt(setup.params.layerHead);
   s.substepsPerBlock = static_cast<int>(setup.substepsPerBlock);
   s.vorticity = scene.fluid.vorticity;
   s.surfaceTension = largestTension(scene);

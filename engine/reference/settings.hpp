@@ -51,6 +51,7 @@ struct ReferenceSettings {
   double startTime = 0;         ///< s, time() at the beginning
   double meltingTime = 0;      ///< s, in which the scale of the density goes from the lattice's to liquidScale(); 0: it stays the lattice's
   double viscosityAtRest = 0;  ///< noise damping: viscosity at rest in addition to `viscosity`, Pa s; 0 at motionSpeed
+  double sparedFlow = 0;       ///< m/s: noise damping is half where neighbors have this mean speed, less where more; 0: all have it
   int substepsPerBlock = 1;    ///< noise damping is applied once per block of this many substeps
 
   double tensile = 0;           ///< strength of the artificial pressure, 0 .. 1; see sph/artificial_pressure.hpp

@@ -119,8 +119,8 @@ class ReferenceSolver {
   void correction(double dt, double push);  ///< x*; `push`: artificial pressure times D_rest
   void velocities(double dt);               ///< v, x; adds dt to time()
   void viscosity(double dt);                ///< v: v' = v + dt f(v'), f the force of sph/viscosity.hpp; then noSlip()
-  void dampNoise(double dt);  ///< v: v -= c L(L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest, at most kMaxNoiseDamping
-  void diffuse(double dt);    ///< state.concentration: dc/dt of sph/diffusion.hpp
+  void dampNoise(double dt);                ///< v: v -= c L(w L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest, w of sparedFlow
+  void diffuse(double dt);                  ///< state.concentration: dc/dt of sph/diffusion.hpp
   /// Vorticity confinement (Macklin and Mueller 2013, eq. 15 and 16, with a dimensionless coefficient):
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
   ///   N = eta / (|eta| + 0.001 |omega| / h).

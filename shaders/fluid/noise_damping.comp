@@ -1,5 +1,5 @@
 #version 460
-// Noise damping, v -= c L(L v) with (L v)_i = sum_j K_ij (v_j - v_i) from velocity_noise.comp. A wave loses with
+// Noise damping, v -= c L(w L v) with (L v)_i = sum_j K_ij (v_j - v_i) and the weight w from velocity_noise.comp. A wave loses with
 // the fourth power of its wave number, where XSPH takes the second: see docs/notes/noise-damping.md.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require

@@ -1,5 +1,6 @@
 #version 460
-// L v, which noise damping filters a second time: the difference of the kernel's mean from each velocity.
+// w L v, which noise damping filters a second time: the difference of the kernel's mean from each velocity, less
+// where that mean is a flow, faster than noise is. See docs/notes/noise-damping.md.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
@@ -16,6 +17,9 @@ layout(std430, binding = 9) writeonly buffer SweepToBlock { vec4 sweepTo[]; };
 void main() {
   uint i;
   if (!gatherDifference(i)) return;
-  sweepTo[i] = vec4(difference, 0.0);
+  vec3 mean = own.xyz + difference;
+  float noise = kSparedFlow * kSparedFlow * params.layerHead + dot(difference, difference);
+  float flow = min(dot(mean, mean) / max(noise, 1e-30), 1e9);
+  sweepTo[i] = vec4(difference / (1.0 + flow * flow), 0.0);
   if (i == 0u) sweepTo[params.capacity] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
 }
