@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/fluids.glsl"
+#include "fluid/motion.glsl"
 #include "fluid/solid_samples.glsl"
 #include "fluid/speed_gain.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -12,7 +13,7 @@ layout(std430, binding = 2) buffer PositionBlock { vec4 position[]; };
 layout(std430, binding = 3) buffer VelocityBlock { vec4 velocity[]; };
 layout(std430, binding = 4) buffer PredictionBlock { vec4 prediction[]; };
 layout(std430, binding = 5) readonly buffer WarmAccelerationBlock { vec4 warmAcceleration[]; };
-layout(std430, binding = 7) readonly buffer SumsBlock { FluidSums sums; };
+layout(std430, binding = 7) buffer SumsBlock { FluidSums sums; };
 #include "shared/arrays.glsl"
 READ_UINT4(6, nearSolids)
 READ_UINT2(16, inReach)
@@ -135,6 +136,14 @@ vec3 velocityAfter(uint i, NearSolids near, vec3 from, vec3 x) {
   return v * min(1.0, params.speedLimit / max(sqrt(dot(v, v)), 1.0e-20));
 }
 
+// What rests on a solid has a velocity into it until here.
+void takeBackMotion(float before, float after) {
+  float undone = motionOf(before) - motionOf(after);
+  if (undone > 0.0) ADD_MOTION(sums.undoneLow, sums.undoneHigh, undone)
+  // correct.comp has counted it; the margin is for rounding
+  if (before > 1.001 * restMaxSpeed() && after <= restMaxSpeed()) atomicAdd(sums.fast, 0xffffffffu);
+}
+
 void main() {
   uint n = flatInvocation();
   if (n >= sums.reached) return;
@@ -148,7 +157,10 @@ void main() {
   ownInverseMass = inverseMassOf(fluid);
   float pushed;
   vec3 x = outside(from, near, 0.0, true, pushed), v = velocity[i].xyz;
-  if (control.phase == kPhaseAdvancing) v = velocityAfter(i, near, from, x);
+  if (control.phase == kPhaseAdvancing) {
+    if (params.sleeps != 0u) takeBackMotion(length(v), length(v + (x - from) / control.step));
+    v = velocityAfter(i, near, from, x);
+  }
   position[i] = vec4(x, storedFluid(fluid));
   velocity[i] = vec4(v, 1.0);
   if (FORCES) return;  // predict.comp, after them

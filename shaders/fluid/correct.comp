@@ -14,6 +14,7 @@
 #include "fluid/cluster.glsl"
 #include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
+#include "fluid/motion.glsl"
 #include "fluid/solid_samples.glsl"
 #include "fluid/speed_gain.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -151,13 +152,6 @@ float endSubstep(uint i, uint head) {
   return sqrt(dot(v, v));
 }
 
-// In kMotionUnit.
-void addMotion(float units) {
-  float high = floor(units / 4294967296.0);
-  uint add = uint(units - high * 4294967296.0), old = atomicAdd(sums.motionLow, add), carry = uint(high) + uint(old + add < old);
-  if (carry > 0u) atomicAdd(sums.motionHigh, carry);
-}
-
 void main() {
   uint local = clusterInvocation();
   uint i = push.first + local;
@@ -176,12 +170,14 @@ void main() {
   float speed = moves ? endSubstep(i, head) : 0.0;
   if (REGIONS && gathers && !moves) storeAcceleration(i, head);
   float fastest = subgroupMax(speed);
-  float motion = subgroupAdd(min(speed * speed / params.layerHead, kMaxMotion));
+  float motion = subgroupAdd(motionOf(speed));
+  uint fast = params.sleeps != 0u ? subgroupAdd(uint(speed > restMaxSpeed())) : 0u;
   if (SOLIDS && inRange && i == 0u) {  // for collide.comp; the next substep counts anew
     sums.reached = sums.inReach;
     sums.inReach = 0u;
   }
   if (!subgroupElect()) return;
   atomicMax(sums.speedMax, floatBitsToUint(fastest));
-  addMotion(round(motion / kMotionUnit));
+  ADD_MOTION(sums.motionLow, sums.motionHigh, motion);
+  if (fast > 0u) atomicAdd(sums.fast, fast);
 }

@@ -19,6 +19,9 @@ void main() {
     sums.bodySpeed = 0u;
     sums.motionLow = 0u;
     sums.motionHigh = 0u;
+    sums.undoneLow = 0u;
+    sums.undoneHigh = 0u;
+    sums.fast = 0u;
   }
   if (i < kFluidGroup)
     for (uint n = i; n < params.bodyCount; n += kFluidGroup) {

@@ -7,10 +7,20 @@
 // Particles that substeps move.
 uint movingParticles() { return control.count - min(sums.asleep, control.count); }
 
-// Mean square of their speeds after the last correction, m^2/s^2.
-float meanMotion() {
-  float sum = (float(sums.motionHigh) * 4294967296.0 + float(sums.motionLow)) * kMotionUnit;
+// Mean square of their speeds, m^2/s^2, from a sum of 64 bits.
+float meanMotion(uint high, uint low) {
+  float sum = (float(high) * 4294967296.0 + float(low)) * kMotionUnit;
   return sum / float(max(movingParticles(), 1u)) * params.layerHead;
+}
+
+// After the last correction.
+float meanMotion() { return meanMotion(sums.motionHigh, sums.motionLow); }
+
+// After solids have acted, too.
+float meanMotionLeft() {
+  uint low = sums.motionLow - sums.undoneLow, borrow = uint(sums.motionLow < sums.undoneLow);
+  bool less = sums.motionHigh < sums.undoneHigh + borrow;  // by rounding
+  return less ? 0.0 : meanMotion(sums.motionHigh - sums.undoneHigh - borrow, low);
 }
 
 // From the speed of the flow, the gains of the next substep.

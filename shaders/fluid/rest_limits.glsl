@@ -3,9 +3,7 @@
 #define RILL_REST_LIMITS_GLSL
 #include "fluid/stability.glsl"
 
-// Of the speed of a fall through a spacing: root mean square, and of the fastest particle.
-const float kRestSpeed = 0.005;
-const float kRestMaxSpeed = 0.15;
+const float kRestSpeed = 0.005;        // of the speed of a fall through a spacing, root mean square
 const float kRestDisplacement = 0.05;  // spacings that the slowest motion may still go
 const float kRestTimes = 20.0;         // times of a fall through a spacing, at least
 

@@ -27,9 +27,9 @@ float quietTime() {
 void accountRest(float error, bool gravityChanged) {
   if (params.sleeps == 0u) return;
   RestLimits limits = restLimits();
-  float fastest = kRestMaxSpeed * sqrt(params.layerHead), compression = error / (control.step * control.step);
+  float compression = error / (control.step * control.step);
   bool steady = params.tolerance <= 0.0 || abs(compression - control.errorRate) <= kRestPressure * control.errorRate;
-  bool slow = meanMotion() <= limits.speed * limits.speed && control.speed <= fastest && control.bodySpeed <= kRestBodies * limits.speed;
+  bool slow = meanMotionLeft() <= limits.speed * limits.speed && sums.fast == 0u && control.bodySpeed <= kRestBodies * limits.speed;
   bool still = movingParticles() == 0u || (slow && steady);  // else there is nothing to be steady
   bool rests = still && !melts() && !gravityChanged && quietTime() > 0.0;
   control.restShare = rests ? control.restShare + control.step / limits.time : 0.0;

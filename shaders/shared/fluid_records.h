@@ -258,7 +258,10 @@ struct FluidSums {
   uint viscosityCapped;      // particles whose viscosity by shear was more than the last solve reaches
   uint inReach;              // particles in reach of solids (fluid/solid_reach.glsl), as they are counted
   uint reached;              // the same of the substep whose correction has begun
+  uint undoneLow, undoneHigh;  // 64-bit sum: of the motion above, what solids took back in the same substep
+  uint fast;                 // particles faster than any at rest, less those that solids stopped in the same substep
 };
+RILL_CONST float kRestMaxSpeed = 0.15f;  // of the fastest particle at rest, over the speed of a fall through a spacing
 RILL_CONST float kMotionUnit = 1.0f / 67108864.0f;
 RILL_CONST float kMaxMotion = 32.0f;  // what one particle adds, at most
 RILL_CONST float kFlowTimes = 4.0f;   // the fastest particle of a flow is about so many times as fast as the root mean square
