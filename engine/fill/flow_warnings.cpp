@@ -8,6 +8,7 @@
 #include "core/words.hpp"
 #include "fill/blocked_mouths.hpp"
 #include "fill/mouth.hpp"
+#include "fill/overlapping_mouths.hpp"
 #include "fill/walls.hpp"
 
 namespace rill {
@@ -122,6 +123,7 @@ Warnings flowWarnings(const Scene& scene, uint64_t filled) {
   const double spacing = scene.fluid.spacing;
   Warnings warnings = blockedMouths(scene, spacing);
   addMouths(scene, spacing, warnings);
+  for (std::string& warning : overlappingMouths(scene, spacing)) warnings.push_back(std::move(warning));
   addDrains(scene, spacing, warnings);
   addLevels(scene, spacing, warnings);
   addOverflow(scene, filled, spacing, warnings);

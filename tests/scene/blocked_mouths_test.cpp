@@ -82,7 +82,9 @@ TEST(BlockedMouths, SolidsMayMoveAway) {
 }
 
 TEST(BlockedMouths, ManyAreSummedUp) {
-  const Scene s = tankWith(std::vector<Mouth>(30, DiscMouth{.center = {5, 5, 5}, .radius = 0.1}));
+  std::vector<Mouth> mouths;
+  for (int k = 0; k < 30; ++k) mouths.push_back(DiscMouth{.center = {5.0 + k, 5, 5}, .radius = 0.1});
+  const Scene s = tankWith(mouths);
   const Texts warnings = warningsOf(s);
   ASSERT_EQ(warnings.size(), 21U);
   EXPECT_EQ(warnings[19], "dam: emitters[19]: its mouth is outside the domain's walls; it is blocked");
@@ -98,7 +100,7 @@ TEST(BlockedMouths, UseTheSpacingThatParticlesGive) {
 }
 
 TEST(BlockedMouths, OriginWithoutFillsIsNearTheMouths) {
-  Scene s = tankWith({DiscMouth{.center = {5000, 100, 7}}, DiscMouth{.center = {5001, 100, 7}}});
+  Scene s = tankWith({DiscMouth{.center = {5000, 100, 7}, .radius = 0.1}, DiscMouth{.center = {5001, 100, 7}, .radius = 0.1}});
   s.domain.reset();
   const ParticleSet set = particles(s);
   EXPECT_NEAR(set.origin.x, 5000.5, 0.051);

@@ -48,6 +48,28 @@ TEST(FlowWarnings, NamesDrainsThinnerThanASubstepMoves) {
                    "may move a particle (solver.cfl): some pass it"}));
 }
 
+TEST(FlowWarnings, NamesMouthsThatOverlap) {
+  Scene s = tankWithTap();
+  s.duration = 1;
+  s.emitters.push_back({.mouth = RectMouth{.center = {0.65, 0.8, 0.5}, .size = {0.2, 0.2}}, .flow = 0.01});
+  s.emitters.push_back({.mouth = RectMouth{.center = {0.85, 0.8, 0.5}, .size = {0.2, 0.2}}, .flow = 0.01});
+  const Lines found{
+      "tank: emitters[1]: its mouth overlaps that of emitters[0]; expected mouths apart, or open at other times: fluid of both in "
+      "one place springs apart"};
+  EXPECT_EQ(flowWarningsOf(s), found) << "the last two are side by side";
+  s.emitters[0].until = s.emitters[1].from = 0.5;
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+  s.emitters[0].until.reset();
+  s.emitters[1].motion = {{0, {0, 0, 0}}, {1, {0, -0.5, 0}}};
+  EXPECT_EQ(flowWarningsOf(s), Lines{});
+  s.emitters[1].motion.clear();
+  s.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.9, .speed = 0.1};
+  s.emitters.resize(1);
+  s.emitters[0].mouth = DiscMouth{.center = {0.05, 0.5, 0.5}, .radius = 0.1, .normal = {1, 0, 0}};
+  s.domain->outflow = Outflow{Axis::PlusX, 0.2};
+  EXPECT_EQ(flowWarningsOf(s).size(), 1U) << "a fine mouth in a coarse one";
+}
+
 TEST(FlowWarnings, NamesMouthsThatOpenTooLateOrAreDrained) {
   Scene s = tankWithTap();
   s.emitters[0].from = 12;
