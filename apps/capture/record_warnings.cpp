@@ -3,8 +3,23 @@
 
 #include "capture/record.hpp"
 #include "core/words.hpp"
+#include "fill/mouth.hpp"
 
 namespace rill::capture {
+namespace {
+
+/// "emitters[1] was", "emitters[1], domain.inflow and 2 more were": those that were blocked.
+std::string blockedEmitters(const Scene& scene, const std::vector<double>& blocked_s) {
+  constexpr size_t kMaxNamed = 3;
+  std::string names;
+  size_t count = 0;
+  for (size_t k = 0; k < blocked_s.size(); ++k)
+    if (blocked_s[k] > 0 && ++count <= kMaxNamed) names += (count > 1 ? ", " : "") + emitterKey(scene, k);
+  if (count > kMaxNamed) names += " and " + grouped(count - kMaxNamed) + " more";
+  return names.empty() ? "emitters were" : names + (count == 1 ? " was" : " were");
+}
+
+}  // namespace
 
 std::string Record::passTable() const {
   std::vector<offline::PassTime> passes;
@@ -60,12 +75,11 @@ std::vector<std::string> Record::warnings() const {
     warnings.push_back("warning: loops of the fluid's shaders reached their limit " + grouped(last.loopBoundHits) +
                        " times since the start: some particles have too many neighbors, or bodies touch too many solids");
   if (last.ledger.outOfIds) warnings.push_back("warning: emitters have stopped: the ids of particles have run out");
-  if (last.ledger.full)
-    warnings.push_back("warning: emitters were blocked: the room for particles (fluid.capacity) was full; emitter_blocked_s is " +
-                       roundedNumber(last.emitterBlocked_s) + " s");
-  else if (last.emitterBlocked_s > 0)
-    warnings.push_back("warning: emitters were blocked for " + roundedNumber(last.emitterBlocked_s) +
-                       " s: a mouth, or a part of one, was in a solid or behind a wall");
+  if (last.ledger.full || last.emitterBlocked_s > 0)
+    warnings.push_back("warning: " + blockedEmitters(*scene_, last.emittersBlocked_s) + " blocked for " +
+                       roundedNumber(last.emitterBlocked_s) + " s: " +
+                       (last.ledger.full ? "the room for particles (fluid.capacity) was full"
+                                         : "a mouth, or a part of one, was in a solid or behind a wall"));
   if (last.nonFinite > 0)
     warnings.push_back("warning: " + grouped(last.nonFinite) + (last.nonFinite == 1 ? " particle is" : " particles are") +
                        " inactive: the position or velocity was not finite");

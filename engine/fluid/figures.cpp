@@ -61,11 +61,13 @@ void FluidImpl::takeLoads(std::span<const std::byte> records) const {
 void FluidImpl::takeFlows(std::span<const std::byte> flow, std::span<const std::byte> emitters, std::span<const std::byte> drains) const {
   if (!read(flow, ledger)) return;
   const double volume = std::pow(double{setup.params.spacing}, 3);
-  const auto take = [&](FlowReading& reading, uint32_t particles) { reading = {particles, particles * volume}; };
+  const auto take = [&](FlowReading& reading, uint32_t particles, double blocked_s) {
+    reading = {.particles = particles, .volume = particles * volume, .blocked_s = blocked_s};
+  };
   for (size_t k = 0; k < emitted.size(); ++k)
-    if (EmitterRecord r{}; read(emitters.subspan(std::min(k * sizeof r, emitters.size())), r)) take(emitted[k], r.emitted);
+    if (EmitterRecord r{}; read(emitters.subspan(std::min(k * sizeof r, emitters.size())), r)) take(emitted[k], r.emitted, r.blockedTime);
   for (size_t k = 0; k < drained.size(); ++k)
-    if (DrainRecord r{}; read(drains.subspan(std::min(k * sizeof r, drains.size())), r)) take(drained[k], r.drained);
+    if (DrainRecord r{}; read(drains.subspan(std::min(k * sizeof r, drains.size())), r)) take(drained[k], r.drained, 0);
 }
 
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
@@ -210,6 +212,7 @@ void FluidImpl::poll() const {
       const auto fluids = setup.fluids > 1 ? pending.graph.lock()->data(pending.fluidFigures) : std::span<const std::byte>();
       s.fluids = figuresOfFluids(fluids, s);
       s.emitterBlocked_s = double{ledger.blockedHigh} + ledger.blockedLow;
+      for (const FlowReading& reading : emitted) s.emittersBlocked_s.push_back(reading.blocked_s);
       s.neighborOverflow = sums.overflow;
       s.loopBoundHits = sums.boundHits;
       s.viscosityBoundHits = sums.viscosityBoundHits;

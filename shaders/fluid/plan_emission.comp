@@ -91,7 +91,10 @@ void main() {
   for (uint e = 0u; e < params.emitterCount; ++e) {
     bool had = emitters[e].blocked != 0u;
     float open = account(e);
-    if (had) blocked = max(blocked, open);
+    if (had) {
+      blocked = max(blocked, open);
+      emitters[e].blockedTime += open;
+    }
     bool opens = emitters[e].rate > 0.0 && since(emitters[e].until, 0.0) <= 0.0 && since(emitters[e].from, 0.0) + push.advance > 0.0;
     if (opens) fastest = max(fastest, emitters[e].speed + emitters[e].motionSpeed);
   }

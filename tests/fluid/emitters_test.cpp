@@ -109,7 +109,11 @@ TEST_F(FlowsTest, SolidsAndWallsBlockParticleByParticle) {
   EXPECT_LT(emitted[0].volume, 0.7 * lattice.area * 0.3);
   EXPECT_EQ(emitted[1].particles, 0u) << "in the solid";
   EXPECT_EQ(emitted[2].particles, 0u) << "behind the wall";
-  EXPECT_GT(run->stats().emitterBlocked_s, 0.1);
+  const FluidStats stats = run->stats();
+  EXPECT_GT(stats.emitterBlocked_s, 0.1);
+  ASSERT_EQ(stats.emittersBlocked_s.size(), 3U);
+  EXPECT_GT(stats.emittersBlocked_s[1], 0.1);
+  EXPECT_NEAR(stats.emitterBlocked_s, *std::ranges::max_element(stats.emittersBlocked_s), 1e-4) << "they are at once";
 }
 
 TEST_F(FlowsTest, JetsKeepTheirSpeedInAClosedBoxWithoutGravity) {

@@ -27,7 +27,8 @@ struct PressureReading {
 /// What has gone through an emitter or a drain since the start.
 struct FlowReading {
   uint64_t particles = 0;
-  double volume = 0;  ///< m^3: particles times spacing^3
+  double volume = 0;     ///< m^3: particles times spacing^3
+  double blocked_s = 0;  ///< of an emitter: how long it had no place for some of its particles
 };
 
 /// What has become of the particles: filled + emitted = active + drained + left + inactive, always.
@@ -72,6 +73,7 @@ struct FluidStats {
   FluidLedger ledger = {};
   std::vector<FluidFigures> fluids = {};  ///< in the order of resolvedFluids(), which it has as many as
   double emitterBlocked_s = 0;            ///< since the start, in which some emitter had no place for its particles
+  std::vector<double> emittersBlocked_s;  ///< the same of each emitter, then of the domain's inflow
   uint32_t substeps = 0;                  ///< in the last advance
   uint32_t iterations = 0;                ///< Jacobi iterations in the last advance, summed over substeps
   double timeDropped_s = 0;               ///< in the last advance
