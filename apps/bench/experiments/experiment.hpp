@@ -67,6 +67,7 @@ std::vector<Experiment> oilDropExperiments();     ///< tension between liquids
 std::vector<Experiment> bubbleExperiments();      ///< bubbles that rise in a thick liquid
 std::vector<Experiment> crownExperiments();       ///< fingers of a crown
 std::vector<Experiment> dropExperiments();        ///< surface tension: drops, rise between plates, threads
+std::vector<Experiment> dropMotionExperiments();  ///< surface tension: spin, energy, mode 3 and waves
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
 /// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.

@@ -7,11 +7,11 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kSpacing = 0.05;
+constexpr double kStartSpacing = 0.05;
 constexpr Double3 kRoom = {1, 1, 1};
 constexpr Double3 kNoFluid = {0, 0, 0};
 
-Scene room() { return tankScene(kSpacing, kNoFluid, kRoom); }
+Scene room() { return tankScene(kStartSpacing, kNoFluid, kRoom); }
 Scene weightless(Scene scene) {
   for (double& g : scene.gravity) g = 0;
   return scene;
@@ -47,9 +47,9 @@ std::vector<StressCase> startCases() {
     c.maxEnergy = std::numeric_limits<double>::infinity();
     c.check = [](const StressOutcome& o) {
       const double distance = distanceBetween(o.particles.positions[0], o.particles.positions[1]);
-      if (distance < 0.01 * kSpacing) return "distance: found " + number(distance / kSpacing) + " d, expected at least 0.01 d";
+      if (distance < 0.01 * kStartSpacing) return "distance: found " + number(distance / kStartSpacing) + " d, expected at least 0.01 d";
       const auto& p = o.run.instants.back().stats.momentum;
-      const double momentum = std::hypot(p[0], p[1], p[2]), scale = 1000 * std::pow(kSpacing, 3);
+      const double momentum = std::hypot(p[0], p[1], p[2]), scale = 1000 * std::pow(kStartSpacing, 3);
       return momentum > 1e-5 * scale ? "momentum: found " + number(momentum) + " kg m/s, expected zero" : std::string();
     };
     cases.push_back(std::move(c));
@@ -62,8 +62,8 @@ std::vector<StressCase> startCases() {
     c.check = [](const StressOutcome& o) {
       double farthest = 0;
       for (const Float3& p : o.particles.positions) farthest = std::max(farthest, distanceBetween(p, {0.5f, 0.5f, 0.5f}));
-      return farthest < 3 * kSpacing ? "farthest particle: found " + number(farthest / kSpacing) + " d, expected at least 3 d"
-                                     : std::string();
+      return farthest < 3 * kStartSpacing ? "farthest particle: found " + number(farthest / kStartSpacing) + " d, expected at least 3 d"
+                                          : std::string();
     };
     cases.push_back(std::move(c));
   }
@@ -86,13 +86,13 @@ std::vector<StressCase> startCases() {
   {
     Scene open = weightless(room());
     open.domain.reset();
-    const auto h = static_cast<float>(2 * kSpacing);
+    const auto h = static_cast<float>(2 * kStartSpacing);
     StressCase c = make("two-at-h", "particles at the support radius do not interact", open, particlesAt({{0, 0, 0}, {h, 0, 0}}));
     c.maxSpeed = 1e-9;
     cases.push_back(std::move(c));
   }
   {
-    ParticleSet set = particlesAt(lattice(8, 8, 8, kSpacing, {0.025f, 0.025f, 0.025f}));
+    ParticleSet set = particlesAt(lattice(8, 8, 8, kStartSpacing, {0.025f, 0.025f, 0.025f}));
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     set.positions[17].x = nan;
     set.positions[100].y = infinite;
@@ -104,7 +104,7 @@ std::vector<StressCase> startCases() {
     cases.push_back(std::move(c));
   }
   {
-    const double near = kSpacing / std::cbrt(100.0);
+    const double near = kStartSpacing / std::cbrt(100.0);
     StressCase c = make("compressed-100", "", weightless(room()), particlesAt(lattice(10, 10, 10, near, {0.4f, 0.4f, 0.4f})));
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
@@ -112,30 +112,30 @@ std::vector<StressCase> startCases() {
   }
   {
     StressCase c = make("outside-the-walls", "particles outside are moved inside without gaining speed", weightless(room()),
-                        particlesAt(lattice(8, 8, 8, kSpacing, {0.9f, -0.2f, 0.3f})));
+                        particlesAt(lattice(8, 8, 8, kStartSpacing, {0.9f, -0.2f, 0.3f})));
     c.maxSpeed = 0.1;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
     StressCase c = make("far-outside", "particles start a kilometer outside", room(),
-                        particlesAt(lattice(4, 4, 4, kSpacing, {1000.0f, -1000.0f, 3.0f})));
+                        particlesAt(lattice(4, 4, 4, kStartSpacing, {1000.0f, -1000.0f, 3.0f})));
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
-    StressCase c = make("wall-at-100-m/s", "", room(), particlesAt(lattice(8, 8, 8, kSpacing, {0.3f, 0.3f, 0.3f}), {100, 0, 0}), 100);
+    StressCase c = make("wall-at-100-m/s", "", room(), particlesAt(lattice(8, 8, 8, kStartSpacing, {0.3f, 0.3f, 0.3f}), {100, 0, 0}), 100);
     c.duration_s = 0.2;
     cases.push_back(std::move(c));
   }
   {
-    Scene sheet = tankScene(kSpacing, {1, 0.05, 1}, {1, 1, 1});
+    Scene sheet = tankScene(kStartSpacing, {1, 0.05, 1}, {1, 1, 1});
     std::get<BoxShape>(sheet.fill[0].shape).min[1] = 0.5;
     std::get<BoxShape>(sheet.fill[0].shape).max[1] = 0.55;
     cases.push_back(make("thin-sheet", "", sheet, {}));
   }
   {
-    Scene overlapping = tankScene(kSpacing, {0.5, 0.5, 0.5}, {1, 1, 1});
+    Scene overlapping = tankScene(kStartSpacing, {0.5, 0.5, 0.5}, {1, 1, 1});
     Fill second = overlapping.fill[0];
     for (int axis = 0; axis < 3; ++axis) {
       std::get<BoxShape>(second.shape).min[axis] += 0.27;
@@ -148,7 +148,7 @@ std::vector<StressCase> startCases() {
   }
   {
     StressCase c = make("list-overflow", "overflowing neighbor lists are counted", room(),
-                        particlesAt(lattice(12, 12, 12, 0.4 * kSpacing, {0.1f, 0.05f, 0.1f})));
+                        particlesAt(lattice(12, 12, 12, 0.4 * kStartSpacing, {0.1f, 0.05f, 0.1f})));
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     c.check = [](const StressOutcome& o) {
@@ -157,21 +157,21 @@ std::vector<StressCase> startCases() {
     };
     cases.push_back(std::move(c));
   }
-  cases.push_back(make("one-cell", "", tankScene(kSpacing, {0.1, 0.1, 0.1}, {0.1, 0.2, 0.1}), {}));
+  cases.push_back(make("one-cell", "", tankScene(kStartSpacing, {0.1, 0.1, 0.1}, {0.1, 0.2, 0.1}), {}));
   {
-    StressCase c = make("all-in-one-cell", "", weightless(room()), particlesAt(lattice(4, 4, 4, 0.2 * kSpacing, {0.5f, 0.5f, 0.5f})));
+    StressCase c = make("all-in-one-cell", "", weightless(room()), particlesAt(lattice(4, 4, 4, 0.2 * kStartSpacing, {0.5f, 0.5f, 0.5f})));
     c.maxSpeed = 20;
     c.maxEnergy = std::numeric_limits<double>::infinity();
     cases.push_back(std::move(c));
   }
   {
     StressCase c = make("one-in-each-cell", "isolated particles fall freely", room(),
-                        particlesAt(lattice(7, 2, 7, 2.5 * kSpacing, {0.1f, 0.6f, 0.1f})));
+                        particlesAt(lattice(7, 2, 7, 2.5 * kStartSpacing, {0.1f, 0.6f, 0.1f})));
     c.duration_s = 0.2;
     c.check = [](const StressOutcome& o) {
       const double fallen = 0.5 * 9.81 * 0.04;
       for (size_t k = 0; k < o.particles.positions.size(); ++k) {
-        const double from = k / 7 % 2 == 0 ? 0.6 : 0.6 + 2.5 * kSpacing;
+        const double from = k / 7 % 2 == 0 ? 0.6 : 0.6 + 2.5 * kStartSpacing;
         if (std::abs(from - o.particles.positions[k].y - fallen) > 0.05 * fallen)
           return "particle " + std::to_string(k) + " does not fall freely";
       }
@@ -180,7 +180,7 @@ std::vector<StressCase> startCases() {
     cases.push_back(std::move(c));
   }
   {
-    Scene filled = tankScene(kSpacing, {0.5, 0.5, 0.5}, {1, 1, 1});
+    Scene filled = tankScene(kStartSpacing, {0.5, 0.5, 0.5}, {1, 1, 1});
     Solid obstacle;
     obstacle.shape = BoxShape{{0, 0, 0}, {1, 1, 1}};
     filled.solids.push_back(obstacle);
