@@ -48,9 +48,6 @@ float reflectedSpread(ivec2 pixel, vec3 normal) {
 }
 
 #ifndef OPAQUE
-const float kMaxRay = 1e4;            // spacings: maximal length of a refracted ray
-const int kRefractionSteps = 6;       // at most, that find where the ray meets the scene's depth
-const float kRefractionError = 0.25;  // pixels: depth that ends the search
 // Coherence, the length of the mean normal: 0.1 on a single drop, 0.5 at a straight silhouette, 1 on an even surface.
 // Each effect fades between two values of it.
 const vec2 kRefractionFade = vec2(0.2, 0.7);
@@ -98,12 +95,30 @@ float thicknessOf(uint fluid, Around near) {
   const float a = float(thickness[s.x]), b = float(thickness[s.y]), c = float(thickness[s.z]), d = float(thickness[s.w]);
   return mix(mix(a, b, near.part.x), mix(c, d, near.part.x), near.part.y) * look.finish.z;
 }
-float thicknessAt(vec2 pixel) {
-  const Around near = around(pixel);
+float thicknessOver(Around near) {
   float sum = thicknessOf(0u, near);
   for (uint fluid = 1u; fluid < FLUIDS; ++fluid) sum += thicknessOf(fluid, near);
   return sum;
 }
+float thicknessAt(vec2 pixel) { return thicknessOver(around(pixel)); }
+// The same of a pixel that sees the fluid from depth z to the scene's. Samples where the scene is nearer than half of that have less fluid
+// in front of it; the next ones take their place.
+float thicknessToScene(ivec2 pixel, float z) {
+  const Around near = around(vec2(pixel) + 0.5);
+  const float least = 0.5 * (z + scene_depth[uint(pixel.y) * view.width + uint(pixel.x)]);
+  const uint step = uint(look.finish.y), columns = (view.width + step - 1u) / step;
+  bvec4 seen;
+  for (int k = 0; k < 4; ++k) {
+    const uvec2 own = uvec2(near.samples[k] % columns, near.samples[k] / columns);
+    const uvec2 at = min(own * step + step / 2u, uvec2(view.width, view.height) - 1u);
+    seen[k] = scene_depth[at.y * view.width + at.x] >= least;
+  }
+  const uvec4 across = mix(near.samples, near.samples.yxwz, not(seen));
+  const bvec4 found = bvec4(seen.x || seen.y, seen.x || seen.y, seen.z || seen.w, seen.z || seen.w);
+  return thicknessOver(Around(mix(across, across.zwxy, not(found)), near.part, near.grid));
+}
+
+#include "render/refracted_ray.glsl"
 
 // Depth where one of several fluids begins, in m; noDepth() without any.
 float beginOf(uint fluid, Around near) {
@@ -255,7 +270,6 @@ vec3 scatteredSun(vec3 point, vec3 along, float size, Interior interior) {
 
 // Refracted and scattered light, without the reflection. `scattered`: incident light.
 vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal, vec3 scattered) {
-  const uint index = uint(pixel.y) * view.width + uint(pixel.x);
   const vec2 middle = vec2(pixel) + 0.5;
   const float z = point.z;
   vec3 face = mean_normal.direction;
@@ -264,51 +278,16 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   // A drop does not refract, because its refraction would apply to all fluid behind it; nor does the near plane with the eye in the fluid.
   const float bends = z <= nearestDrawn() ? 0.0 : smoothstep(kRefractionFade.x, kRefractionFade.y, mean_normal.coherence);
   const vec3 bent = normalize(mix(sight, refract(sight, face, 1.0 / look.absorption.w), bends));
-  float inside = thicknessAt(middle);
-  const float straight = inside;
+  const float straight = thicknessToScene(pixel, z);
   // Whitewater is full of air and scatters white light.
   const float white = look.finish.w * (1.0 - smoothstep(kWhitewaterFade.x, kWhitewaterFade.y, mean_normal.coherence)) *
-                      (1.0 - exp(-inside / view.spacing));
-  // The ray is refracted inside the fluid and parallel to the view ray behind it; iterated until it meets the scene's depth.
-  const float farthest = kMaxRay * view.spacing;
-  float ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
-  vec2 hit_pixel = middle;
-  float hit_depth = scene_depth[index];
-  // Lengths of the ray where the scene is behind it and where it is in front of it, and by how much: its end lies between.
-  float before = 0.0, before_gap = max(min(hit_depth, farthest) - z, 0.0), beyond = 0.0, beyond_gap = 0.0;
-  for (int k = 0; k < kRefractionSteps; ++k) {
-    const vec3 at = point + bent * min(ray_length, inside) + sight * max(ray_length - inside, 0.0);
-    if (at.z > view.near_depth) {
-      hit_pixel = clamp(pixelOf(at), vec2(0.0), pictureSize() - 1.0);
-      hit_depth = scene_depth[uint(hit_pixel.y) * view.width + uint(hit_pixel.x)];
-      const float gap = min(hit_depth, farthest) - at.z;
-      if (abs(gap) < kRefractionError * metersAPixel(at.z)) break;
-      if (gap < 0.0) {
-        beyond = ray_length;
-        beyond_gap = gap;
-      } else {
-        before = ray_length;
-        before_gap = gap;
-      }
-      // By the false position, or in the middle where an edge of the scene lies between.
-      const float part = before_gap / (before_gap - beyond_gap);
-      if (beyond_gap < 0.0)
-        ray_length = mix(before, beyond, part < 0.9 ? part : 0.5);
-      else
-        ray_length += gap / max(ray_length < inside ? bent.z : sight.z, 0.1);
-      inside = max(inside, thicknessAt(hit_pixel));
-    }
-  }
-  // The scene in front of the fluid is not refracted.
-  if (hit_depth < z) {
-    hit_pixel = middle;
-    ray_length = (min(scene_depth[index], farthest) - z) / sight.z;
-  }
+                      (1.0 - exp(-straight / view.spacing));
+  const RayEnd end = refractedRay(middle, point, bent, sight, straight);
   // At grazing angles the search may end too soon: a layer as thick as the fluid is here and there leaves at least this of the ray.
-  const float layer = min(straight, thicknessAt(hit_pixel)) * clamp(dot(face, sight) / min(dot(face, bent), kEdgeOn), 0.0, 1.0);
-  const float path = max(min(inside, ray_length), layer);
+  const float layer = min(straight, end.thickness) * clamp(dot(face, sight) / min(dot(face, bent), kEdgeOn), 0.0, 1.0);
+  const float path = max(min(end.inside, end.size), layer);
   const Passage fluids = passage(middle, path, scattered);
-  vec3 body = sceneBilinear(hit_pixel, z) * fluids.through + fluids.added;
+  vec3 body = sceneBilinear(end.pixel, end.front) * fluids.through + fluids.added;
 #ifdef CRESTS
   body += bends * scatteredSun(point, bent, path, fluids.interior);
 #endif
