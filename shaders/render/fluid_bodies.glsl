@@ -12,6 +12,7 @@ struct Interior {
 Interior lookInterior() { return Interior(look.absorption.rgb, look.scatter.rgb, look.emission.rgb, 1.0); }
 
 vec3 absorptionOf(uint fluid) { return FLUIDS == 1u ? look.absorption.rgb : look.fluid_absorption[fluid].rgb; }
+vec3 scatterOf(uint fluid) { return FLUIDS == 1u ? look.scatter.rgb : look.fluid_scatter[fluid].rgb; }
 // Of one of several fluids.
 Interior interiorOf(uint fluid) {
   const vec4 rates = look.fluid_absorption[fluid];

@@ -36,7 +36,7 @@ vec3 throughFluid(vec3 p) {
   const uvec4 x = uvec4(clamp(columns, ivec4(0), ivec4(size.x - 1)));
   // Twice as wide as a texel is: the disc of the sun blurs the edge.
   float meters = 0.0;
-  vec3 depth = vec3(0.0);
+  vec3 depth = vec3(0.0), back = vec3(0.0);
   for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
     float counts = 0.0;
     RILL_LOOP for (int k = 0; k < 4; ++k) {
@@ -47,9 +47,13 @@ vec3 throughFluid(vec3 p) {
     const float own = counts * look.finish.z;
     meters += own;
     depth += absorptionOf(fluid) * own;
+    if (FLUIDS > 1u) back += absorptionOf(fluid) * own * scatterOf(fluid);
   }
   const float spread = 1.0 - exp(-meters / (2.0 * view.spacing));  // what the surface bends away
-  return look.scatter.w > 0.0 ? vec3(1.0 - spread) : exp(-depth) * (1.0 - 0.45 * spread);
+  if (look.scatter.w > 0.0) return vec3(1.0 - spread);
+  // A layer that scatters lets 1 / (1 + 3/4 of its optical depth) through (diffusion, two streams), most of it from all directions.
+  const vec3 color = FLUIDS == 1u ? look.scatter.rgb : back / max(depth, vec3(1e-20)), straight = exp(-depth);
+  return straight * (1.0 - 0.45 * spread) + color * max(1.0 / (1.0 + 0.75 * depth) - straight, vec3(0.0));
 }
 #endif
 

@@ -255,5 +255,18 @@ TEST_F(TwoFluids, ShadowsHaveTheirColors) {
   }
 }
 
+// Light that milk scatters reaches the floor in its shadow: 0.17 of the sun's through 10 cm. Ink as thick lets none through.
+TEST_F(TwoFluids, FluidThatScattersCastsABrighterShadow) {
+  scene_.domain = Domain{{0, 0, 0}, {1.6, 1, 1}};
+  scene_.fluids = {{.name = "preset"}, {.name = "water", .color = Double3{0.8, 0.95, 1}}};
+  scene_.camera = Camera{.eye = {0.8, 2.6, 1.4}, .target = {0.8, 0, 0.4}, .fov_y_deg = 32};
+  box({0.2, 0.4, 0.6}, {0.5, 0.5, 0.9}, 0);
+  const auto inShadow = [&](const char* preset) {
+    scene_.look.preset = preset;
+    return at(picture(), {0.35 + 0.36 * 0.45, 0, 0.75 - 0.52 * 0.45})[0];
+  };
+  EXPECT_GT(inShadow("diluted_milk"), 1.1 * inShadow("ink"));
+}
+
 }  // namespace
 }  // namespace rill::test
