@@ -54,8 +54,8 @@ TEST(FlowWarnings, NamesMouthsThatOverlap) {
   s.emitters.push_back({.mouth = RectMouth{.center = {0.65, 0.8, 0.5}, .size = {0.2, 0.2}}, .flow = 0.01});
   s.emitters.push_back({.mouth = RectMouth{.center = {0.85, 0.8, 0.5}, .size = {0.2, 0.2}}, .flow = 0.01});
   const Lines found{
-      "tank: emitters[1]: its mouth overlaps that of emitters[0]; expected mouths apart, or open at other times: fluid of both in "
-      "one place springs apart"};
+      "tank: emitters[1]: its mouth overlaps that of emitters[0]; expected mouths apart, or open at other times: what they emit starts "
+      "compressed and accelerates apart"};
   EXPECT_EQ(flowWarningsOf(s), found) << "the last two are side by side";
   s.emitters[0].until = s.emitters[1].from = 0.5;
   EXPECT_EQ(flowWarningsOf(s), Lines{});
@@ -68,6 +68,27 @@ TEST(FlowWarnings, NamesMouthsThatOverlap) {
   s.emitters[0].mouth = DiscMouth{.center = {0.05, 0.5, 0.5}, .radius = 0.1, .normal = {1, 0, 0}};
   s.domain->outflow = Outflow{Axis::PlusX, 0.2};
   EXPECT_EQ(flowWarningsOf(s).size(), 1U) << "a fine mouth in a coarse one";
+}
+
+TEST(FlowWarnings, ComparesMouthsOfAnyShape) {
+  Scene s = tankWithTap();
+  s.duration = 1e-3;
+  s.fluid.spacing = 0.02;
+  const auto overlaps = [&](const Mouth& a, const Mouth& b) {
+    s.emitters = {{.mouth = a, .flow = 0.001}, {.mouth = b, .flow = 0.001}};
+    return flowWarningsOf(s).size() == 1;
+  };
+  s.domain = Domain{{-3, -3, -3}, {3, 3, 3}};
+  const RectMouth wall{.center = {0, 0, 0}, .size = {2.4, 2.4}, .normal = {0, 0, 1}, .up = {0, 1, 0}};
+  EXPECT_FALSE(overlaps(wall, RectMouth{.center = {0, 0, -0.1}, .size = {2.4, 2.4}, .normal = {0, 0, -1}, .up = {0, 1, 0}}))
+      << "back to back";
+  EXPECT_TRUE(overlaps(wall, RectMouth{.center = {1, 1, 0.01}, .size = {2.4, 2.4}, .normal = {0, 0, 1}, .up = {0, 1, 0}}));
+  EXPECT_FALSE(overlaps(wall, RectMouth{.center = {2.4, 0, 0}, .size = {2.4, 2.4}, .normal = {0, 0, 1}, .up = {0, 1, 0}}))
+      << "side by side";
+  const RectMouth slit{.center = {0, 0, 0}, .size = {3.9, 0.3}, .normal = {0, 0, 1}, .up = {0, 1, 0}};
+  for (const double x : {0.0, 0.1, 0.13, 1.9})
+    EXPECT_TRUE(overlaps(slit, DiscMouth{.center = {x, 0, 0}, .radius = 0.03, .normal = {0, 0, 1}})) << x;
+  EXPECT_FALSE(overlaps(slit, DiscMouth{.center = {2, 0, 0}, .radius = 0.03, .normal = {0, 0, 1}}));
 }
 
 TEST(FlowWarnings, NamesMouthsThatOpenTooLateOrAreDrained) {
