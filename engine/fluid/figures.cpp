@@ -65,7 +65,8 @@ void FluidImpl::takeFlows(std::span<const std::byte> flow, std::span<const std::
     reading = {.particles = particles, .volume = particles * volume, .blocked_s = blocked_s};
   };
   for (size_t k = 0; k < emitted.size(); ++k)
-    if (EmitterRecord r{}; read(emitters.subspan(std::min(k * sizeof r, emitters.size())), r)) take(emitted[k], r.emitted, r.blockedTime);
+    if (EmitterRecord r{}; read(emitters.subspan(std::min(k * sizeof r, emitters.size())), r))
+      take(emitted[k], r.emitted, double{r.blockedHigh} + r.blockedLow);
   for (size_t k = 0; k < drained.size(); ++k)
     if (DrainRecord r{}; read(drains.subspan(std::min(k * sizeof r, drains.size())), r)) take(drained[k], r.drained, 0);
 }

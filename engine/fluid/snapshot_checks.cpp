@@ -118,11 +118,11 @@ Expected<void> checkPressures(const FluidSnapshot& s) {
 /// Whether an emitter's state can be gone on with: shaders place particles by it.
 bool valid(const EmitterRecord& e) {
   for (const float number :
-       {e.centerX, e.centerY, e.centerZ, e.speed,      e.rate,   e.normalX,  e.normalY, e.normalZ, e.acrossX,  e.acrossY,    e.acrossZ,
-        e.upX,     e.upY,     e.upZ,     e.halfAcross, e.halfUp, e.doneHigh, e.doneLow, e.age,     e.interval, e.blockedTime})
+       {e.centerX, e.centerY, e.centerZ, e.speed,      e.rate,   e.normalX,  e.normalY, e.normalZ, e.acrossX,  e.acrossY,     e.acrossZ,
+        e.upX,     e.upY,     e.upZ,     e.halfAcross, e.halfUp, e.doneHigh, e.doneLow, e.age,     e.interval, e.blockedHigh, e.blockedLow})
     if (!(std::abs(number) < 1e15F)) return false;
-  return e.speed >= 0 && e.rate >= 0 && e.opened >= 0 && e.opened <= 1 && e.age >= 0 && e.age < 1e6F && e.interval >= 0 &&
-         e.interval < 1e6F && e.due <= 1000000;
+  return e.speed >= 0 && e.rate >= 0 && e.blockedHigh >= 0 && e.opened >= 0 && e.opened <= 1 && e.age >= 0 && e.age < 1e6F &&
+         e.interval >= 0 && e.interval < 1e6F && e.due <= 1000000;
 }
 
 Expected<void> checkFlows(const FluidSnapshot& s, const SnapshotShape& shape) {

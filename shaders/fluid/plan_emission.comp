@@ -21,11 +21,12 @@ float since(float high, float low) {
   return seconds;
 }
 
-void addBlockedTime(float seconds) {
-  precise float sum = flow.blockedHigh + (seconds + flow.blockedLow);
-  precise float rest = (flow.blockedHigh - sum) + (seconds + flow.blockedLow);
-  flow.blockedHigh = sum;
-  flow.blockedLow = rest;
+// To a time as the sum of two floats.
+void addTo(inout float high, inout float low, float seconds) {
+  precise float sum = high + (seconds + low);
+  precise float rest = (high - sum) + (seconds + low);
+  high = sum;
+  low = rest;
 }
 
 // Layers that have left the mouth since it was last accounted for. Returns the seconds in which it was open.
@@ -93,12 +94,12 @@ void main() {
     float open = account(e);
     if (had) {
       blocked = max(blocked, open);
-      emitters[e].blockedTime += open;
+      addTo(emitters[e].blockedHigh, emitters[e].blockedLow, open);
     }
     bool opens = emitters[e].rate > 0.0 && since(emitters[e].until, 0.0) <= 0.0 && since(emitters[e].from, 0.0) + push.advance > 0.0;
     if (opens) fastest = max(fastest, emitters[e].speed + emitters[e].motionSpeed);
   }
-  addBlockedTime(blocked);
+  addTo(flow.blockedHigh, flow.blockedLow, blocked);
   if (births) makeRoom();
   else control.emitterSpeed = fastest;
   for (uint e = 0u; e < params.emitterCount; ++e) next = min(next, wait(e));

@@ -44,7 +44,7 @@ struct EmitterRecord {
   float doneHigh, doneLow;          // s, the time up to which it is accounted for, as the sum of two floats
   uint emitted;                     // particles since the start
   uint blocked;                     // of the last layer: kNoRoom, kCovered
-  float blockedTime;                // s since the start, in which it was
+  float blockedHigh, blockedLow;    // s since the start, in which it was, as the sum of two floats
   uint layers, waiting;             // born at this rebuild, and due but not
   uint firstCandidate;              // of their particles
 };

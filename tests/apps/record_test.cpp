@@ -87,6 +87,29 @@ TEST(Record, WarnsAboutDroppedTimeAndLimits) {
     EXPECT_NE(warnings[k].find(what), std::string::npos) << warnings[k];
 }
 
+TEST(Record, NamesBlockedEmitters) {
+  Scene flows = scene();
+  flows.emitters.resize(5);
+  flows.domain->inflow = Inflow{.side = Axis::MinusX, .level = 0.5, .speed = 1};
+  const auto warningOf = [&](std::vector<double> blocked_s, bool full) {
+    Record record(flows, {}, "");
+    offline::Stats last = stats(0, 0, 0);
+    last.emitterBlocked_s = *std::ranges::max_element(blocked_s);
+    last.emittersBlocked_s = std::move(blocked_s);
+    last.ledger.full = full;
+    record.add(0, last);
+    const auto warnings = record.warnings();
+    return warnings.empty() ? "" : warnings.front();
+  };
+  const std::string solid = ": a mouth, or a part of one, was in a solid or behind a wall";
+  EXPECT_EQ(warningOf({0, 0, 0, 0, 0, 0}, false), "");
+  EXPECT_EQ(warningOf({0, 0.5, 0, 0, 0, 0}, false), "warning: emitters[1] was blocked for 0.5 s" + solid);
+  EXPECT_EQ(warningOf({0.25, 0, 0, 0, 0, 0.5}, false), "warning: emitters[0], domain.inflow were blocked for 0.5 s" + solid);
+  EXPECT_EQ(
+      warningOf({1, 1, 1, 1, 1, 2}, true),
+      "warning: emitters[0], emitters[1], emitters[2] and 3 more were blocked for 2 s: the room for particles (fluid.capacity) was full");
+}
+
 TEST(Record, TellsHowManyParticlesSleepWhereAsked) {
   Scene small = scene();
   EXPECT_EQ(Record(small, {}, "").sleepText(), "");

@@ -113,7 +113,7 @@ TEST_F(FlowsTest, SolidsAndWallsBlockParticleByParticle) {
   EXPECT_GT(stats.emitterBlocked_s, 0.1);
   ASSERT_EQ(stats.emittersBlocked_s.size(), 3U);
   EXPECT_GT(stats.emittersBlocked_s[1], 0.1);
-  EXPECT_NEAR(stats.emitterBlocked_s, *std::ranges::max_element(stats.emittersBlocked_s), 1e-4) << "they are at once";
+  EXPECT_NEAR(stats.emitterBlocked_s, *std::ranges::max_element(stats.emittersBlocked_s), 1e-4) << "all are blocked in the same intervals";
 }
 
 TEST_F(FlowsTest, JetsKeepTheirSpeedInAClosedBoxWithoutGravity) {
