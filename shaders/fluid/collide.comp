@@ -137,9 +137,9 @@ vec3 velocityAfter(uint i, NearSolids near, vec3 from, vec3 x) {
 }
 
 // What rests on a solid has a velocity into it until here.
-void takeBackMotion(float before, float after) {
-  float undone = motionOf(before) - motionOf(after);
-  if (undone > 0.0) ADD_MOTION(sums.undoneLow, sums.undoneHigh, undone)
+void subtractStoppedMotion(float before, float after) {
+  float stopped = motionOf(before) - motionOf(after);
+  if (stopped > 0.0) ADD_MOTION(sums.stoppedLow, sums.stoppedHigh, stopped)
   // correct.comp has counted it; the margin is for rounding
   if (before > 1.001 * restMaxSpeed() && after <= restMaxSpeed()) atomicAdd(sums.fast, 0xffffffffu);
 }
@@ -158,7 +158,7 @@ void main() {
   float pushed;
   vec3 x = outside(from, near, 0.0, true, pushed), v = velocity[i].xyz;
   if (control.phase == kPhaseAdvancing) {
-    if (params.sleeps != 0u) takeBackMotion(length(v), length(v + (x - from) / control.step));
+    if (params.sleeps != 0u) subtractStoppedMotion(length(v), length(v + (x - from) / control.step));
     v = velocityAfter(i, near, from, x);
   }
   position[i] = vec4(x, storedFluid(fluid));

@@ -110,7 +110,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     if (nextTravel > params.travelLimit || control.emissionWait <= 0.0 || regionsAreDue()) control.listState = kListDue;
   }
 
-  if (first) sums.motionLow = sums.motionHigh = sums.undoneLow = sums.undoneHigh = sums.fast = 0u;
+  if (first) sums.motionLow = sums.motionHigh = sums.stoppedLow = sums.stoppedHigh = sums.fast = 0u;
   if (first && control.noiseDamping > 0.0) control.executedNoiseDampings += 1u;
   control.running = control.timeLeft > 0.0 && control.listState == kListValid ? 1u : 0u;
   control.again = again ? 1u : 0u;

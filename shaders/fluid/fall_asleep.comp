@@ -19,8 +19,8 @@ void main() {
     sums.bodySpeed = 0u;
     sums.motionLow = 0u;
     sums.motionHigh = 0u;
-    sums.undoneLow = 0u;
-    sums.undoneHigh = 0u;
+    sums.stoppedLow = 0u;
+    sums.stoppedHigh = 0u;
     sums.fast = 0u;
   }
   if (i < kFluidGroup)

@@ -18,9 +18,9 @@ float meanMotion() { return meanMotion(sums.motionHigh, sums.motionLow); }
 
 // After solids have acted, too.
 float meanMotionLeft() {
-  uint low = sums.motionLow - sums.undoneLow, borrow = uint(sums.motionLow < sums.undoneLow);
-  bool less = sums.motionHigh < sums.undoneHigh + borrow;  // by rounding
-  return less ? 0.0 : meanMotion(sums.motionHigh - sums.undoneHigh - borrow, low);
+  uint low = sums.motionLow - sums.stoppedLow, borrow = uint(sums.motionLow < sums.stoppedLow);
+  bool less = sums.motionHigh < sums.stoppedHigh + borrow;  // by rounding
+  return less ? 0.0 : meanMotion(sums.motionHigh - sums.stoppedHigh - borrow, low);
 }
 
 // From the speed of the flow, the gains of the next substep.

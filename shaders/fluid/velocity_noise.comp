@@ -19,7 +19,7 @@ void main() {
   if (!gatherDifference(i)) return;
   vec3 mean = own.xyz + difference;
   float noise = kSparedFlow * kSparedFlow * params.layerHead + dot(difference, difference);
-  float flow = min(dot(mean, mean) / max(noise, 1e-30), 1e9);
+  float flow = min(dot(mean, mean) / noise, 1e9);
   sweepTo[i] = vec4(difference / (1.0 + flow * flow), 0.0);
   if (i == 0u) sweepTo[params.capacity] = vec4(0.0);  // the dummy neighbor, whose weight of 0 would not do away with a NaN
 }

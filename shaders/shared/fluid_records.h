@@ -258,7 +258,7 @@ struct FluidSums {
   uint viscosityCapped;      // particles whose viscosity by shear was more than the last solve reaches
   uint inReach;              // particles in reach of solids (fluid/solid_reach.glsl), as they are counted
   uint reached;              // the same of the substep whose correction has begun
-  uint undoneLow, undoneHigh;  // 64-bit sum: of the motion above, what solids took back in the same substep
+  uint stoppedLow, stoppedHigh;  // 64-bit sum: of the motion above, what solids stopped in the same substep
   uint fast;                 // particles faster than any at rest, less those that solids stopped in the same substep
 };
 RILL_CONST float kRestMaxSpeed = 0.15f;  // of the fastest particle at rest, over the speed of a fall through a spacing

@@ -41,7 +41,7 @@ class RegionsAtSolidsTest : public RegionsTest {
     static const FluidSnapshot state = afterOpening(channelWithShoal());
     return state;
   }
-  /// Once a quarter of all sleep, or after 15 s.
+  /// Once a quarter of all sleep, or after 15 s. Two pillars that keep regions awake leave 30 % that can.
   static Asleep asleepAtPillar(Run& run, const std::vector<float>& pillars = {0.22F}) {
     Asleep found;
     for (int k = 0; k < 60 && 4 * found.all < run.fluid().count(); ++k) {

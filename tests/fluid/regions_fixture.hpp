@@ -14,7 +14,7 @@ namespace regions_test {
 constexpr double kFrame = 1.0 / 60;
 constexpr glm::ivec3 kRoom = {64, 16, 4};
 constexpr int kLayers = 6;
-constexpr double kOpens = 10.0;  // s, the tap: all sleeps by then
+constexpr double kOpens = 15.0;  // s, the tap: all sleeps by then, after 5 to 10 s
 
 /// A long tank with a tap over its low end.
 inline Trial channel() {

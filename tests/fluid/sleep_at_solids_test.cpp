@@ -29,7 +29,7 @@ class SleepAtSolidsTest : public FluidTest {
     auto run = start(t);
     while (run->progress().time_s < seconds && !run->progress().asleep) run->advance(kFrame, kPiece);
     EXPECT_TRUE(run->progress().asleep);
-    EXPECT_GT(run->progress().time_s, 1) << "not what this test is about";
+    EXPECT_GT(run->progress().time_s, 1) << "it fell asleep before it had settled";
   }
 };
 
