@@ -151,7 +151,7 @@ constexpr Band kBands[] = {
     {"rising-bubble", "largest rise speed", 0.1, {0.1, kNotChecked, kNotChecked}, "%", ""},
     {"rising-bubble", "height after 3 s", 0.1, {0.1, kNotChecked, kNotChecked}, "%", ""},
     {"lock-exchange", "Froude number", 0.1, {0.55, 0.5, 0.46}, "%", kShear},
-    {"diffusion", "amount that has passed", 0.02, {0.04, 0.02, 0.02}, "%", "the noise of a melting lattice stirs coarse layers"},
+    {"diffusion", "amount that has passed", 0.02, {0.04, 0.02, 0.02}, "%", "coarse layers scatter by 2 % with rounding"},
     {"diffusion", "share, rms", 0.02, {0.02, 0.01, 0.01}, "%", ""},
     {"diffusion", "amount", 0.0001, {0.0001, 0.0001, 0.0001}, "%", ""},
     {"elliptic-drop", "long axis, end", 0.03, {0.03, 0.06, 0.05}, "%", kElliptic},
