@@ -9,6 +9,7 @@
 #include "bench/workbench.hpp"
 #include "core/words.hpp"
 #include "fluid/settings.hpp"
+#include "fluid/snapshot_words.hpp"
 #include "reference/solver.hpp"
 #include "sort/key_sort.hpp"
 
@@ -97,16 +98,18 @@ Expected<CheckResult> densityMatches(const Bench& bench) {
                      "at most " + percent(kDensityTolerance)};
 }
 
-/// Each pair within the support is in both lists.
+/// Each pair that was within the support when the lists were built is in both.
 Expected<CheckResult> neighborLists(const Bench& bench) {
   auto simulation = checkedRun(bench, kCheckFrames);
   if (!simulation) return simulation.error();
-  const double support = simulation->scene().fluid.smoothing_ratio * simulation->start().spacing;
+  const double spacing = simulation->start().spacing, support = simulation->scene().fluid.smoothing_ratio * spacing;
   for (int extra = 0; extra < 20; ++extra) {
     const auto checkpoint = simulation->checkpoint();
     if (!checkpoint) return checkpoint.error();
     const FluidSnapshot& state = checkpoint->fluid;
-    if (state.neighborCount.empty()) {  // the list is due: it lasts for several frames' ends at most
+    // Two particles have come nearer by twice the travel since, at most. An old list says little, and one that is due is not saved.
+    const double reach = support - 2 * double{readRecord<FluidControl>(state.control).travel};
+    if (state.neighborCount.empty() || reach < 1.2 * spacing) {
       if (auto advanced = simulation->advance(kCheckFrame_s / 8); !advanced) return advanced.error();
       continue;
     }
@@ -118,7 +121,7 @@ Expected<CheckResult> neighborLists(const Bench& bench) {
       first += list.size();
       for (size_t j = 0; listed && j < state.position.size(); ++j) {
         const Float3 &a = state.position[i], &b = state.position[j];
-        if (i == j || std::hypot(double(a.x) - b.x, double(a.y) - b.y, double(a.z) - b.z) >= support) continue;
+        if (i == j || std::hypot(double(a.x) - b.x, double(a.y) - b.y, double(a.z) - b.z) >= reach) continue;
         ++pairs;
         missing += std::find(list.begin(), images, uint32_t(j)) == images;
       }
