@@ -1,6 +1,6 @@
 // Where the ray of a pixel, bent at the fluid's surface, meets the scene's depth. Needs `scene_depth` and thicknessAt().
 
-const float kMaxRay = 1e4;       // spacings: farthest depth
+const float kMaxDepth = 1e4;     // spacings: farthest
 const float kStride = 8.0;       // pixels between points of the march
 const int kMaxStrides = 16;      // at most, over each of the ray's two parts
 const int kHalvings = 6;         // at most
@@ -17,8 +17,8 @@ struct RayParts {
   float end;
 };
 vec2 rayPixel(RayParts ray, float part) {
-  const float way = part < 1.0 ? part : (view.perspective > 0.0 ? 2.0 - part : 1.0);
-  return clamp(ray.from + way * ray.out_to, vec2(0.0), pictureSize() - 1.0);
+  const float along = part < 1.0 ? part : (view.perspective > 0.0 ? 2.0 - part : 1.0);
+  return clamp(ray.from + along * ray.out_to, vec2(0.0), pictureSize() - 1.0);
 }
 float rayDepth(RayParts ray, float part) {
   const float depth = part < 1.0 ? mix(ray.start, ray.leaves, part) : mix(ray.leaves, ray.end, part - 1.0);
@@ -36,10 +36,11 @@ struct RayEnd {
 // A march finds the first point behind the scene's depth, and halving the pixel before it. Where a solid's edge lies between, the ray
 // passes behind the solid, and what is beside the edge stands for what is hidden.
 RayEnd refractedRay(vec2 middle, vec3 from, vec3 bent, vec3 sight, float straight) {
-  const float far = kMaxRay * view.spacing;
+  const float far = kMaxDepth * view.spacing;
   vec3 leaves = from + straight * bent;
   leaves.z = max(leaves.z, view.near_depth);
-  const float there = thicknessAt(clamp(pixelOf(leaves), vec2(0.0), pictureSize() - 1.0)), inside = max(straight, there);
+  const float exit_thickness = thicknessAt(clamp(pixelOf(leaves), vec2(0.0), pictureSize() - 1.0));
+  const float inside = max(straight, exit_thickness);
   leaves = from + inside * bent;
   leaves.z = clamp(leaves.z, view.near_depth, far);
   RayParts ray = RayParts(middle, pixelOf(leaves) - middle, from.z, leaves.z, far);
@@ -65,5 +66,5 @@ RayEnd refractedRay(vec2 middle, vec3 from, vec3 bent, vec3 sight, float straigh
   const float part = edge ? first : mix(first, last, gap / max(gap - beyond_gap, 1e-20));
   const float z = edge ? before : rayDepth(ray, part), in_fluid = min(z, leaves.z);
   const float size = (in_fluid - from.z) / max(bent.z, 0.1) + (z - in_fluid) / sight.z;
-  return RayEnd(rayPixel(ray, part), max(edge ? 0.5 * (before + beyond) : from.z, from.z), size, inside, there);
+  return RayEnd(rayPixel(ray, part), max(edge ? 0.5 * (before + beyond) : from.z, from.z), size, inside, exit_thickness);
 }
