@@ -40,6 +40,7 @@ float thicknessToScene(ivec2 pixel, float z) {
     const uvec2 at = min(own * cell + cell / 2u, uvec2(view.width, view.height) - 1u);
     seen[k] = scene_depth[at.y * view.width + at.x] >= least;
   }
+  if (!any(seen)) return thicknessOver(near);
   const uvec4 across = mix(near.samples, near.samples.yxwz, not(seen));
   const bvec4 found = bvec4(seen.x || seen.y, seen.x || seen.y, seen.z || seen.w, seen.z || seen.w);
   return thicknessOver(Around(mix(across, across.zwxy, not(found)), near.part, near.grid));

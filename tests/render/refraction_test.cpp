@@ -83,5 +83,29 @@ TEST_F(Refraction, SolidsInFluidAreSeenOnce) {
   }
 }
 
+// In slits between solids that hide all samples, the thickness is that in front of the solids, which falls along x.
+TEST_F(Refraction, SlitsWithoutSamplesHaveTheThicknessBesideThem) {
+  pool(0.4);
+  const FluidView view = parallel(0.01);
+  FluidLook look = clear();
+  look.absorption = {5, 5, 5};
+  const uint32_t slit[2] = {0, 1};  // columns of each four; samples lie at the third
+  std::vector<float> depths;
+  for (uint32_t y = 0; y < kDown; ++y)
+    for (uint32_t x = 0; x < kAcross; ++x) {
+      const double board = kDistance + 0.35 - 0.3 * x / kAcross;
+      depths.push_back(static_cast<float>(-view.projection.column[2].z * (x % 4 <= slit[1] ? 20 : board)));
+    }
+  const auto white = seen(view, look, {1, 1, 1, 1}, depths), black = seen(view, look, {0, 0, 0, 1}, depths);
+  double light[2] = {0, 0};
+  for (uint32_t y = 20; y < kDown - 20; ++y)
+    for (uint32_t x = 20; x < kAcross - 20; x += 4)
+      for (const uint32_t column : slit) {
+        const size_t i = size_t{y} * kAcross + x + column;
+        light[column] += white[i][0] - black[i][0];
+      }
+  EXPECT_GT(light[1], 1.001 * light[0]);
+}
+
 }  // namespace shading_test
 }  // namespace rill::test
