@@ -255,7 +255,7 @@ TEST_F(TwoFluids, ShadowsHaveTheirColors) {
   }
 }
 
-// Light that milk scatters reaches the floor in its shadow: 0.17 of the sun's through 10 cm. Ink as thick lets none through.
+// Light that milk scatters reaches the floor in its shadow: 0.17 of the sun's red through 10 cm. Ink as thick lets no red through.
 TEST_F(TwoFluids, FluidThatScattersCastsABrighterShadow) {
   scene_.domain = Domain{{0, 0, 0}, {1.6, 1, 1}};
   scene_.fluids = {{.name = "preset"}, {.name = "water", .color = Double3{0.8, 0.95, 1}}};
