@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <vector>
 
 #include "bench/experiments/exact.hpp"
 
@@ -38,6 +39,15 @@ TEST(Curves, FitShiftKeepsErrorOfShape) {
   const ShiftFit fit = fitShift(curve, points);
   EXPECT_LT(fit.shifted, fit.unshifted);
   EXPECT_GT(fit.shifted, 0.01);
+}
+
+TEST(Curves, ZeroCrossingsAreInterpolated) {
+  const Curve curve{{0, 4}, {1, 2}, {2, -2}, {3, 2}};
+  EXPECT_EQ(zeroCrossings(curve, 0, 0), (std::vector<double>{1.5, 2.5}));
+  EXPECT_EQ(zeroCrossings(curve, 1, 0), (std::vector<double>{1.25, 2.75}));
+  EXPECT_EQ(zeroCrossings(curve, 0, 1.1), (std::vector<double>{2.5}));
+  EXPECT_TRUE(zeroCrossings(curve, 5, 0).empty());
+  EXPECT_TRUE(zeroCrossings({}, 0, 0).empty());
 }
 
 TEST(Curves, OscillationMeasuresPeriodAndDamping) {

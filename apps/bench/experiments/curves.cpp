@@ -80,24 +80,28 @@ ShiftFit fitShift(const Curve& curve, const Curve& points) {
   return fit;
 }
 
+std::vector<double> zeroCrossings(const Curve& curve, double zero, double from) {
+  std::vector<double> crossings;
+  for (size_t k = 1; k < curve.size(); ++k) {
+    const double t0 = curve[k - 1].first, y0 = curve[k - 1].second - zero, t1 = curve[k].first, y1 = curve[k].second - zero;
+    if ((y0 < 0) != (y1 < 0) && t0 >= from) crossings.push_back(t0 + (t1 - t0) * y0 / (y0 - y1));
+  }
+  return crossings;
+}
+
 Oscillation oscillation(const Curve& curve, double from, double minRelativePeak) {
   Oscillation found;
-  std::vector<double> crossings;
-  size_t begin = 0;  // first sample after the previous crossing
-  for (size_t k = 1; k < curve.size(); ++k) {
-    const auto [t0, y0] = curve[k - 1];
-    const auto [t1, y1] = curve[k];
-    if ((y0 < 0) == (y1 < 0) || t0 < from) continue;
-    if (!crossings.empty()) {
-      const auto peak = extreme(curve, begin, k - 1);
-      if (!found.peaks.empty() && peak.second < minRelativePeak * found.peaks.front().second) break;
-      found.peaks.push_back(peak);
-    }
-    crossings.push_back(t0 + (t1 - t0) * y0 / (y0 - y1));
-    begin = k;
+  const std::vector<double> crossings = zeroCrossings(curve, 0, from);
+  const auto sampleAfter = [&](double time) {
+    return size_t(std::ranges::lower_bound(curve, time, {}, &Curve::value_type::first) - curve.begin());
+  };
+  size_t n = std::min<size_t>(1, crossings.size());  // crossings before noise dominates
+  for (; n > 0 && n < crossings.size(); ++n) {
+    const auto peak = extreme(curve, sampleAfter(crossings[n - 1]), sampleAfter(crossings[n]) - 1);
+    if (!found.peaks.empty() && peak.second < minRelativePeak * found.peaks.front().second) break;
+    found.peaks.push_back(peak);
   }
-  const size_t n = crossings.size();
-  found.period = n < 3 ? kNaN : 2 * (crossings.back() - crossings.front()) / double(n - 1);
+  found.period = n < 3 ? kNaN : 2 * (crossings[n - 1] - crossings.front()) / double(n - 1);
   Curve logarithms;
   for (const auto& [time, size] : found.peaks) logarithms.emplace_back(time, std::log(size));
   found.decrement = logarithms.size() < 2 ? kNaN : -slope(logarithms) * found.period;

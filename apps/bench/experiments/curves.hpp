@@ -25,6 +25,9 @@ struct ShiftFit {
 };
 ShiftFit fitShift(const Curve& curve, const Curve& points);
 
+/// Interpolated x at which the curve crosses `zero`, between samples from `from` on.
+std::vector<double> zeroCrossings(const Curve& curve, double zero, double from);
+
 /// An oscillation about zero, from interpolated zero crossings and the extremes between them (parabola through three samples).
 struct Oscillation {
   double period = 0;     ///< NaN with fewer than three crossings

@@ -1,10 +1,15 @@
 // Surface tension: what drops keep of their spin and energy, mode 3 of a drop, and capillary waves.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "bench/experiments/curves.hpp"
+#include "bench/experiments/drop_theory.hpp"
 #include "bench/experiments/experiment.hpp"
 #include "bench/experiments/start_file.hpp"
 #include "reference/solver.hpp"
@@ -14,14 +19,8 @@ namespace {
 
 constexpr double kUnitTension = 1, kUnitDensity = 1000, kUnitSpacing = 0.01;  // N/m, kg/m^3, m
 
-Scene tenseScene() {
-  Scene scene;
-  scene.fluid.spacing = kUnitSpacing;
-  scene.fluid.density = kUnitDensity;
-  scene.fluid.surface_tension = kUnitTension;
-  scene.gravity = {0, 0, 0};
-  return scene;
-}
+Scene weightlessUnit() { return weightless(kUnitSpacing, kUnitDensity, kUnitTension); }
+double unitDropPeriod(int n, double radius) { return dropPeriod(n, radius, kUnitDensity, kUnitTension); }
 
 /// Points of a cubic lattice around the origin.
 Cloud latticeWhere(int half, const std::function<bool(const Double3&)>& inside) {
@@ -35,10 +34,9 @@ Cloud latticeWhere(int half, const std::function<bool(const Double3&)>& inside) 
   return cloud;
 }
 
-double sphereRadius(const Cloud& cloud) { return cloud.spacing * std::cbrt(0.75 * double(cloud.size()) / std::numbers::pi); }
-
-double modePeriod(double radius, int n) {
-  return 2 * std::numbers::pi * std::sqrt(kUnitDensity * std::pow(radius, 3) / (double(n * (n - 1) * (n + 2)) * kUnitTension));
+/// NaN without as many.
+double crossing(const std::vector<double>& crossings, size_t k) {
+  return k < crossings.size() ? crossings[k] : std::numeric_limits<double>::quiet_NaN();
 }
 
 double norm(const Double3& v) { return std::hypot(v.x, v.y, v.z); }
@@ -51,7 +49,7 @@ Expected<Outcome> spinningDrop(const Bench& bench, unsigned level, double viscos
   for (size_t i = 0; i < ball.size(); ++i) ball.velocity[i] = {-spin * ball.position[i].y, spin * ball.position[i].x, 0};
   const auto start = StartFile::write(ball);
   if (!start) return start.error();
-  Scene scene = tenseScene();
+  Scene scene = weightlessUnit();
   scene.fluid.viscosity = viscosity;
   scene.fill.push_back(start->fill());
   Curve spins;
@@ -67,6 +65,7 @@ Expected<Outcome> spinningDrop(const Bench& bench, unsigned level, double viscos
   if (!run) return run.error();
   Outcome outcome;
   outcome.run = std::move(*run);
+  if (bench.stopped()) return outcome;
   outcome.curves["spin"] = curveJson(spins);
   outcome.figures.push_back(relativeFigure("angular momentum after 1 s", at(spins, 1), 1));
   outcome.figures.push_back(relativeFigure("angular momentum after 2 s", at(spins, 2), 1));
@@ -99,7 +98,7 @@ constexpr int kCube[kLevels] = {4, 6, 8};  // spacings, half an edge
 Expected<Outcome> cube(const Bench& bench, unsigned level) {
   const auto start = StartFile::write(latticeWhere(kCube[level], [](const Double3&) { return true; }));
   if (!start) return start.error();
-  Scene scene = tenseScene();
+  Scene scene = weightlessUnit();
   scene.fill.push_back(start->fill());
   Curve energies;
   double drift = 0, first = 0, gain = 0, least = 0, spin = 0, rest = 0, restCount = 0;
@@ -107,7 +106,7 @@ Expected<Outcome> cube(const Bench& bench, unsigned level) {
       bench, scene, 4, 1.0 / 60, [](double) { return true; },
       [&](const Cloud& cloud, double time) {
         const DropEnergy energy = energyOf(cloud);
-        const double all = energy.kinetic + energy.surface, radius = sphereRadius(cloud), area = 4 * std::numbers::pi * radius * radius;
+        const double all = energy.kinetic + energy.surface, radius = radiusOf(cloud), area = 4 * std::numbers::pi * radius * radius;
         if (time == 0) first = all;
         if (time > kLatticeMelts) least = least == 0 ? all : std::min(least, all), gain = std::max(gain, (all - least) / first);
         energies.emplace_back(time, all / first);
@@ -118,6 +117,7 @@ Expected<Outcome> cube(const Bench& bench, unsigned level) {
   if (!run) return run.error();
   Outcome outcome;
   outcome.run = std::move(*run);
+  if (bench.stopped()) return outcome;
   outcome.curves["energy"] = curveJson(energies);
   outcome.figures.push_back(plainFigure("energy, gain", gain));
   outcome.figures.push_back(plainFigure("energy, end", energies.back().second));
@@ -130,19 +130,21 @@ Expected<Outcome> cube(const Bench& bench, unsigned level) {
 // Mode 3 of a drop that has come to rest with drag.
 constexpr double kModeBall[kLevels] = {6, 7.5, 9};
 Expected<Outcome> modeThree(const Bench& bench, unsigned level) {
-  const double size = kModeBall[level] * kUnitSpacing, settled = 2 * modePeriod(size, 2);
-  Scene ball = tenseScene();
-  ball.fluid.drag = 4 / modePeriod(size, 2);
+  const double size = kModeBall[level] * kUnitSpacing, settled = 2 * unitDropPeriod(2, size);
+  Scene ball = weightlessUnit();
+  ball.fluid.drag = 4 / unitDropPeriod(2, size);
   const auto ballStart = StartFile::write(latticeWhere(12, [&](const Double3& p) { return norm(p) < size; }));
   if (!ballStart) return ballStart.error();
   ball.fill.push_back(ballStart->fill());
   Cloud drop;
-  const double frame = modePeriod(size, 3) / 60;
+  const double frame = unitDropPeriod(3, size) / 60;
   auto before = runSampled(
       bench, ball, settled, frame, [&](double time) { return time > settled - frame / 2; },
       [&](const Cloud& cloud, double) { drop = cloud; });
   if (!before) return before.error();
-  const double radius = sphereRadius(drop), period = modePeriod(radius, 3);
+  Outcome outcome;
+  if (bench.stopped()) return outcome;
+  const double radius = radiusOf(drop), period = unitDropPeriod(3, radius);
   const Double3 middle = meanPosition(drop);
   drop.velocity.assign(drop.size(), {});
   for (size_t i = 0; i < drop.size(); ++i) {
@@ -152,7 +154,7 @@ Expected<Outcome> modeThree(const Bench& bench, unsigned level) {
   }
   const auto start = StartFile::write(drop);
   if (!start) return start.error();
-  Scene scene = tenseScene();
+  Scene scene = weightlessUnit();
   scene.fill.push_back(start->fill());
   Curve curve;
   auto run = runSampled(
@@ -167,19 +169,13 @@ Expected<Outcome> modeThree(const Bench& bench, unsigned level) {
         curve.emplace_back(time, sum / double(cloud.size()) / std::pow(radius, 3));
       });
   if (!run) return run.error();
-  const double zero = curve.front().second;
-  std::vector<double> crossings;
-  for (size_t i = 1; i < curve.size(); ++i) {
-    const double a = curve[i - 1].second - zero, b = curve[i].second - zero;
-    if (curve[i].first > period / 8 && a * b < 0)
-      crossings.push_back(curve[i - 1].first + (curve[i].first - curve[i - 1].first) * a / (a - b));
-  }
-  Outcome outcome;
   outcome.run = std::move(*run);
+  if (bench.stopped()) return outcome;
   outcome.curves["mode"] = curveJson(curve);
-  for (size_t k = 0; k < std::min<size_t>(3, crossings.size()); ++k)
-    outcome.figures.push_back(
-        relativeFigure("half period " + std::to_string(k + 1), crossings[k] - (k == 0 ? 0 : crossings[k - 1]), period / 2));
+  const auto crossings = zeroCrossings(curve, curve.front().second, period / 8);
+  for (size_t k = 0; k < 3; ++k)
+    outcome.figures.push_back(relativeFigure("half period " + std::to_string(k + 1),
+                                             crossing(crossings, k) - (k == 0 ? 0 : crossing(crossings, k - 1)), period / 2));
   return outcome;
 }
 
@@ -199,7 +195,7 @@ Expected<Outcome> capillaryWave(const Bench& bench, unsigned level) {
   cloud.velocity.assign(cloud.size(), {});
   const auto start = StartFile::write(cloud);
   if (!start) return start.error();
-  Scene scene = tenseScene();
+  Scene scene = weightlessUnit();
   scene.domain = Domain{.min = {0, 0, 0}, .max = {length, 4 * depth, wide * d}, .open = 0b001000};
   scene.fill.push_back(start->fill());
   Curve curve;
@@ -211,16 +207,13 @@ Expected<Outcome> capillaryWave(const Bench& bench, unsigned level) {
         curve.emplace_back(time, sum / double(sample.size()) / d);
       });
   if (!run) return run.error();
-  std::vector<double> crossings;
-  for (size_t i = 1; i < curve.size(); ++i) {
-    const double a = curve[i - 1].second, b = curve[i].second;
-    if (a * b < 0) crossings.push_back(curve[i - 1].first + (curve[i].first - curve[i - 1].first) * a / (a - b));
-  }
   Outcome outcome;
   outcome.run = std::move(*run);
+  if (bench.stopped()) return outcome;
   outcome.curves["wave"] = curveJson(curve);
-  for (size_t m = 0; m < std::min<size_t>(2, crossings.size()); ++m)
-    outcome.figures.push_back(relativeFigure("zero " + std::to_string(m + 1), crossings[m], period * (0.25 + 0.5 * double(m))));
+  const auto crossings = zeroCrossings(curve, 0, 0);
+  for (size_t m = 0; m < 2; ++m)
+    outcome.figures.push_back(relativeFigure("zero " + std::to_string(m + 1), crossing(crossings, m), period * (0.25 + 0.5 * double(m))));
   return outcome;
 }
 

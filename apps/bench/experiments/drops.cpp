@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "bench/experiments/curves.hpp"
+#include "bench/experiments/drop_theory.hpp"
 #include "bench/experiments/experiment.hpp"
 #include "bench/experiments/start_file.hpp"
 #include "core/disjoint_sets.hpp"
@@ -16,20 +17,8 @@ namespace {
 constexpr double kTension = 0.072, kDensity = 1000, kWaterDropRadius = 0.001;  // N/m, kg/m^3, m: water
 constexpr int kWaterDropResolution[kLevels] = {5, 7, 10};                      // spacings a radius
 
-/// A scene without gravity and walls.
-Scene weightless(double spacing) {
-  Scene scene;
-  scene.fluid.spacing = spacing;
-  scene.fluid.density = kDensity;
-  scene.fluid.surface_tension = kTension;
-  scene.gravity = {0, 0, 0};
-  return scene;
-}
-
-double radiusOf(const Cloud& cloud) { return cloud.spacing * std::cbrt(0.75 * double(cloud.size()) / std::numbers::pi); }
-
-// Period of mode 2 of a drop (Rayleigh 1879).
-double dropPeriod(double radius) { return 2 * std::numbers::pi * std::sqrt(kDensity * std::pow(radius, 3) / (8 * kTension)); }
+Scene weightlessWater(double spacing) { return weightless(spacing, kDensity, kTension); }
+double waterDropPeriod(double radius) { return dropPeriod(2, radius, kDensity, kTension); }
 
 /// How much longer along x than across, from second moments: about 1.5 times the amplitude of mode 2 over the radius.
 double elongation(const Cloud& cloud) {
@@ -44,8 +33,8 @@ double elongation(const Cloud& cloud) {
 
 // A ball of the rest lattice becomes a drop for two periods, with drag. Then it gets the velocities of mode 2.
 Expected<Outcome> oscillatingDrop(const Bench& bench, unsigned level) {
-  const double spacing = kWaterDropRadius / kWaterDropResolution[level], period = dropPeriod(kWaterDropRadius), frame = period / 60;
-  Scene ball = weightless(spacing);
+  const double spacing = kWaterDropRadius / kWaterDropResolution[level], period = waterDropPeriod(kWaterDropRadius), frame = period / 60;
+  Scene ball = weightlessWater(spacing);
   ball.fluid.drag = 4 / period;
   ball.fill.push_back({.shape = SphereShape{{0, 0, 0}, kWaterDropRadius}});
   ball.probes.push_back({.name = "middle", .pressure = Double3{0, 0, 0}});
@@ -63,7 +52,7 @@ Expected<Outcome> oscillatingDrop(const Bench& bench, unsigned level) {
     pressure += std::get<offline::PressureValue>(instant.stats.probes[0].second).pressure;
     ++count;
   }
-  const double radius = radiusOf(settledDrop), rate = 2 * std::numbers::pi / dropPeriod(radius);
+  const double radius = radiusOf(settledDrop), rate = 2 * std::numbers::pi / waterDropPeriod(radius);
   constexpr double kAmplitude = 0.15;  // of the radius
   const Double3 middle = meanPosition(settledDrop);
   settledDrop.velocity.assign(settledDrop.size(), {});
@@ -74,12 +63,12 @@ Expected<Outcome> oscillatingDrop(const Bench& bench, unsigned level) {
   }
   const auto start = StartFile::write(settledDrop);
   if (!start) return start.error();
-  Scene scene = weightless(spacing);
+  Scene scene = weightlessWater(spacing);
   scene.fill.push_back(start->fill());
   Curve elongations;
   double drift = 0;
   auto run = runSampled(
-      bench, scene, 2.2 * dropPeriod(radius), frame, [](double) { return true; },
+      bench, scene, 2.2 * waterDropPeriod(radius), frame, [](double) { return true; },
       [&](const Cloud& cloud, double time) {
         elongations.emplace_back(time, elongation(cloud));
         const Double3 now = meanPosition(cloud);
@@ -88,8 +77,8 @@ Expected<Outcome> oscillatingDrop(const Bench& bench, unsigned level) {
   if (!run) return run.error();
   outcome.run = std::move(*run);
   outcome.curves["elongation"] = curveJson(elongations);
-  const Oscillation found = oscillation(elongations, dropPeriod(radius) / 8, 0.1);
-  outcome.figures.push_back(relativeFigure("period", found.period, dropPeriod(radius)));
+  const Oscillation found = oscillation(elongations, waterDropPeriod(radius) / 8, 0.1);
+  outcome.figures.push_back(relativeFigure("period", found.period, waterDropPeriod(radius)));
   outcome.figures.push_back(plainFigure("damping a period", found.decrement));
   outcome.figures.push_back(relativeFigure("pressure", pressure / count, 2 * kTension / radius));
   outcome.figures.push_back(plainFigure("drift of the center", drift));
@@ -116,11 +105,11 @@ double capAngle(double volume, double height) {
 
 // The half of a ball above a plate becomes a drop with the contact angle.
 Expected<Outcome> sessile(const Bench& bench, unsigned level, double angle) {
-  const double spacing = kWaterDropRadius / kWaterDropResolution[level], end = 4 * dropPeriod(kWaterDropRadius),
+  const double spacing = kWaterDropRadius / kWaterDropResolution[level], end = 4 * waterDropPeriod(kWaterDropRadius),
                wide = 3 * kWaterDropRadius;
-  Scene scene = weightless(spacing);
+  Scene scene = weightlessWater(spacing);
   scene.fluid.contact_angle = angle;
-  scene.fluid.drag = 2 / dropPeriod(kWaterDropRadius);
+  scene.fluid.drag = 2 / waterDropPeriod(kWaterDropRadius);
   scene.domain = Domain{.min = {-wide, 0, -wide}, .max = {wide, wide, wide}, .open = 0b111011};
   scene.fill.push_back({.shape = SphereShape{{0, 0, 0}, kWaterDropRadius}});
   double found = std::numeric_limits<double>::quiet_NaN();
@@ -235,7 +224,7 @@ Expected<Outcome> thread(const Bench& bench, unsigned level) {
       }
   const auto start = StartFile::write(cloud);
   if (!start) return start.error();
-  Scene scene = weightless(spacing);
+  Scene scene = weightlessWater(spacing);
   const double room = 6 * kThreadRadius;
   scene.domain = Domain{{-wall, -room, -room}, {wall, room, room}, SideMask{0b111100}};
   scene.fill.push_back(start->fill());
