@@ -23,6 +23,8 @@ constexpr std::string_view kLayerPressure = "the probe reads as much too high in
 constexpr std::string_view kLightLayer = "what little pressure moves heavy particles at the interface moves light ones far";
 constexpr std::string_view kSkin = "the outermost particles change places more slowly than the surface moves, and carry some of it";
 constexpr std::string_view kThread = "short waves need more than their amplitude to move particles that lie as in a lattice";
+constexpr std::string_view kTorque = "tension exerts a torque: docs/notes/surface-tension.md";
+constexpr std::string_view kSettles = "particles settle between the samples, which hold the surface: docs/notes/surface-tension.md";
 constexpr std::string_view kOilDrop = "particles under pressure rub: a liquid of them is viscous, and slows the drop down";
 constexpr std::string_view kShear = "particles under pressure rub, as at a Reynolds number of some 10: docs/notes/several-fluids.md";
 
@@ -132,6 +134,24 @@ constexpr Band kBands[] = {
     {"drop", "damping a period", kNoAim, {0.6, 0.5, 0.5}, "", ""},
     {"drop", "pressure", 0.05, {0.1, 0.1, 0.15}, "%", kSkin},
     {"drop", "drift of the center", 1e-4, {1e-4, 1e-4, 1e-4}, "", ""},
+    {"spinning-drop", "angular momentum after 1 s", 0.05, {0.5, 0.33, 0.21}, "%", kTorque},
+    {"spinning-drop", "angular momentum after 2 s", 0.05, {0.88, 0.66, 0.42}, "%", kTorque},
+    {"spinning-drop", "angular momentum, last second", 0.05, {0.76, 0.5, 0.29}, "%", kTorque},
+    {"spinning-drop", "drift of the center", 1e-4, {1e-4, 1e-4, 1e-4}, "", ""},
+    {"thin-spinning-drop", "angular momentum after 1 s", 0.05, {0.08, 0.05, 0.06}, "%", kTorque},
+    {"thin-spinning-drop", "angular momentum after 2 s", 0.05, {0.08, 0.1, 0.15}, "%", kTorque},
+    {"thin-spinning-drop", "angular momentum, last second", 0.05, {0.13, 0.09, 0.12}, "%", kTorque},
+    {"thin-spinning-drop", "drift of the center", 1e-4, {1e-4, 1e-4, 1e-4}, "", ""},
+    {"cube-to-drop", "energy, gain", 0.001, {0.001, 0.001, 0.001}, "%", ""},
+    {"cube-to-drop", "energy, end", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "%", ""},
+    {"cube-to-drop", "kinetic energy at rest", kNoAim, {4e-3, 6e-3, 8e-3}, "", ""},
+    {"cube-to-drop", "angular momentum", kNoAim, {1e-4, 7e-5, 5e-5}, "m^2/s", ""},
+    {"cube-to-drop", "drift of the center", 1e-4, {1e-4, 1e-4, 1e-4}, "", ""},
+    {"drop-mode-3", "half period 1", 0.1, {0.16, 0.16, 0.22}, "%", kSettles},
+    {"drop-mode-3", "half period 2", 0.1, {0.33, 0.33, 0.33}, "%", kSettles},
+    {"drop-mode-3", "half period 3", 0.1, {0.43, 0.43, 0.43}, "%", kSettles},
+    {"capillary-wave", "zero 1", 0.1, {1, 0.7, 0.6}, "%", kSettles},
+    {"capillary-wave", "zero 2", 0.1, {kNotChecked, kNotChecked, 0.6}, "%", kSettles},
     {"crown", "fingers", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "", ""},
     {"crown", "height of the rim", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "m", ""},
     {"crown", "spread of its height", kNoAim, {kNotChecked, kNotChecked, kNotChecked}, "m", ""},
