@@ -130,18 +130,16 @@ Expected<Outcome> cube(const Bench& bench, unsigned level) {
 // Mode 3 of a drop that has come to rest with drag.
 constexpr double kModeBall[kLevels] = {6, 7.5, 9};
 Expected<Outcome> modeThree(const Bench& bench, unsigned level) {
-  const double size = kModeBall[level] * kUnitSpacing, settled = 2 * unitDropPeriod(2, size);
+  const double size = kModeBall[level] * kUnitSpacing;
   Scene ball = weightlessUnit();
   ball.fluid.drag = 4 / unitDropPeriod(2, size);
   const auto ballStart = StartFile::write(latticeWhere(12, [&](const Double3& p) { return norm(p) < size; }));
   if (!ballStart) return ballStart.error();
   ball.fill.push_back(ballStart->fill());
-  Cloud drop;
   const double frame = unitDropPeriod(3, size) / 60;
-  auto before = runSampled(
-      bench, ball, settled, frame, [&](double time) { return time > settled - frame / 2; },
-      [&](const Cloud& cloud, double) { drop = cloud; });
+  auto before = settle(bench, ball, 2 * unitDropPeriod(2, size), frame);
   if (!before) return before.error();
+  Cloud drop = std::move(before->cloud);
   Outcome outcome;
   if (bench.stopped()) return outcome;
   const double radius = radiusOf(drop), period = unitDropPeriod(3, radius);

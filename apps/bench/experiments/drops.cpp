@@ -38,16 +38,13 @@ Expected<Outcome> oscillatingDrop(const Bench& bench, unsigned level) {
   ball.fluid.drag = 4 / period;
   ball.fill.push_back({.shape = SphereShape{{0, 0, 0}, kWaterDropRadius}});
   ball.probes.push_back({.name = "middle", .pressure = Double3{0, 0, 0}});
-  Cloud settledDrop;
-  const double settled = 2 * period;
-  auto before = runSampled(
-      bench, ball, settled, frame, [&](double time) { return time > settled - frame / 2; },
-      [&](const Cloud& cloud, double) { settledDrop = cloud; });
+  auto before = settle(bench, ball, 2 * period, frame);
   if (!before) return before.error();
+  Cloud settledDrop = std::move(before->cloud);
   Outcome outcome;
   if (bench.stopped()) return outcome;
   double pressure = 0, count = 0;
-  for (const apps::Instant& instant : before->instants) {
+  for (const apps::Instant& instant : before->run.instants) {
     if (instant.time_s < period) continue;
     pressure += std::get<offline::PressureValue>(instant.stats.probes[0].second).pressure;
     ++count;

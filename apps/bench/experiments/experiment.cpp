@@ -32,6 +32,16 @@ Expected<RunFigures> runSampled(const Bench& bench, const Scene& scene, double d
   return figures;
 }
 
+Expected<Settled> settle(const Bench& bench, const Scene& scene, double duration_s, double frame_s) {
+  Settled settled;
+  auto run = runSampled(
+      bench, scene, duration_s, frame_s, [&](double time_s) { return time_s > duration_s - frame_s / 2; },
+      [&](const Cloud& cloud, double) { settled.cloud = cloud; });
+  if (!run) return run.error();
+  settled.run = std::move(*run);
+  return settled;
+}
+
 Json curveJson(const std::vector<std::pair<double, double>>& curve) {
   Json json = Json::array();
   for (const auto& [x, y] : curve) json.push_back({x, y});

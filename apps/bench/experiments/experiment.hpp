@@ -75,6 +75,13 @@ Expected<RunFigures> runSampled(const Bench& bench, const Scene& scene, double d
                                 const std::function<bool(double time_s)>& sampledAt,
                                 const std::function<void(const Cloud&, double time_s)>& onSample);
 
+/// The figures of a scene that has run for some time, and its particles then.
+struct Settled {
+  RunFigures run;
+  Cloud cloud;  ///< empty if the bench was stopped
+};
+Expected<Settled> settle(const Bench& bench, const Scene& scene, double duration_s, double frame_s);
+
 /// Points as [[x, y], ...].
 Json curveJson(const std::vector<std::pair<double, double>>& curve);
 

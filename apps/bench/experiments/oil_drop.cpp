@@ -91,16 +91,13 @@ Expected<Outcome> oilDrop(const Bench& bench, unsigned level) {
   settling.fluid.drag = 4 / period;
   const double outside = 0.75 * half;
   settling.probes = {{.name = "in", .pressure = Double3{0, 0, 0}}, {.name = "out", .pressure = Double3{outside, outside, outside}}};
-  Cloud settled;
-  const double end = 2 * period;
-  auto before = runSampled(
-      bench, settling, end, frame, [&](double time) { return time > end - frame / 2; },
-      [&](const Cloud& cloud, double) { settled = cloud; });
+  const auto before = settle(bench, settling, 2 * period, frame);
   if (!before) return before.error();
+  const Cloud& settled = before->cloud;
   Outcome outcome;
   if (bench.stopped()) return outcome;
   double pressure = 0, instants = 0;
-  for (const apps::Instant& instant : before->instants) {
+  for (const apps::Instant& instant : before->run.instants) {
     if (instant.time_s < period) continue;
     const auto at = [&](size_t probe) { return std::get<offline::PressureValue>(instant.stats.probes[probe].second).pressure; };
     pressure += at(0) - at(1);
