@@ -1,31 +1,11 @@
-// Single stages of the reference solver: pairs, multipliers, correction, viscosity, vorticity, prediction.
+// Single stages of the reference solver: pairs, multipliers, correction, artificial pressure, vorticity, prediction.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
-#include "reference/cloud.hpp"
+#include "reference/crowded.hpp"
 #include "reference/neighbors.hpp"
-#include "shared/viscosity_steps.h"
 
 namespace rill::reference {
 namespace {
-
-constexpr double kStageSpacing = 0.05, kStageStep = 1e-3;
-
-ReferenceSettings freeSpace() {
-  ReferenceSettings s;
-  s.spacing = kStageSpacing;
-  s.gravity = glm::dvec3(0);
-  return s;
-}
-
-/// A cloud at about twice the rest density, with a coincident pair.
-ReferenceSolver crowded(const ReferenceSettings& settings, unsigned seed = 5) {
-  std::vector<glm::dvec3> x = randomCloud(300, 5.3 * kStageSpacing, seed);
-  x[17] = x[200];
-  std::vector<glm::dvec3> v = randomCloud(300, 2, seed + 1, glm::dvec3(-1));
-  return ReferenceSolver(settings, x, v);
-}
 
 TEST(Neighbors, GridMatchesBruteForce) {
   for (const glm::dvec3 from : {glm::dvec3(0), glm::dvec3(-0.3, -0.9, -0.1), glm::dvec3(1e5, -2e5, 3e4)}) {
@@ -180,101 +160,6 @@ TEST(ArtificialPressureStage, IsConstantBelowReferenceAndZeroAtRest) {
   const double rest = std::pow(kernel(0.475) / kernel(0.3), s.tensilePower);  // 0.95 spacings
   EXPECT_NEAR(at(0.35) / at(0.3), (std::pow(kernel(0.35) / kernel(0.3), s.tensilePower) - rest) / (1 - rest), 1e-12);
   EXPECT_EQ(at(0.5), 0);
-}
-
-/// Damping rate of the shear wave v_x = cos(pi y / L) in a lattice between planes, over that of an implicit step of nu k^2.
-double decayOverTheory(double ratio, double viscosity, int steps) {
-  const int layers = 24, wide = 9;
-  ReferenceSettings s = freeSpace();
-  s.smoothingRatio = ratio;
-  s.viscosity = viscosity;
-  s.viscositySteps = steps;
-  ReferenceSolver solver(s, lattice(wide, layers, wide, kStageSpacing));
-  const double wave = std::numbers::pi / (layers * kStageSpacing), nu = s.viscosity / s.density, dt = 0.02;
-  // Reset the field every step from the middle column, so that the sides of the block, which lack neighbors, have no influence.
-  std::vector<double> column(layers);
-  for (int j = 0; j < layers; ++j) column[j] = std::cos(wave * (j + 0.5) * kStageSpacing);
-  const auto middle = [&](int j) { return static_cast<size_t>((wide / 2 * layers + j) * wide + wide / 2); };
-  solver.density();
-  const int substeps = 100;
-  const auto amplitude = [&] {
-    double sum = 0;
-    for (int j = 0; j < layers; ++j) sum += column[j] * std::cos(wave * (j + 0.5) * kStageSpacing) * 2 / layers;
-    return sum;
-  };
-  const double start = amplitude();
-  for (int step = 0; step < substeps; ++step) {
-    for (size_t i = 0; i < solver.size(); ++i) solver.state.velocity[i] = {column[(i / wide) % layers], 0, 0};
-    solver.viscosity(dt);
-    for (int j = 0; j < layers; ++j) column[j] = solver.state.velocity[middle(j)].x;
-  }
-  return std::log(start / amplitude()) / (std::log(1 + nu * wave * wave * dt) * substeps);
-}
-
-TEST(Viscosity, ShearWaveDecaysAtGivenViscosity) {
-  for (const int steps : {0, 1, 4}) {
-    EXPECT_NEAR(decayOverTheory(2.3, 2, steps), 1, 0.03) << steps;
-    EXPECT_NEAR(decayOverTheory(3, 2, steps), 1, 0.06) << steps;
-  }
-}
-
-glm::dvec3 angularMomentum(const ReferenceSolver& solver) {
-  glm::dvec3 sum(0);
-  for (size_t i = 0; i < solver.size(); ++i) sum += glm::cross(solver.state.predicted[i], solver.state.velocity[i]);
-  return sum;
-}
-
-TEST(Viscosity, ConservesMomentaAndDissipatesEnergy) {
-  for (const double viscosity : {1e-3, 50.0, 1e4})
-    for (const int steps : {0, 1, 5, 64}) {
-      ReferenceSettings s = freeSpace();
-      s.viscosity = viscosity;
-      s.viscositySteps = steps;
-      ReferenceSolver solver = crowded(s);
-      solver.density();
-      const glm::dvec3 before = meanVelocity(solver), turning = angularMomentum(solver);
-      const double kinetic = energy(solver);
-      solver.viscosity(kStageStep);
-      EXPECT_LT(glm::length(meanVelocity(solver) - before), 1e-12) << viscosity << " " << steps;
-      EXPECT_LT(glm::length(angularMomentum(solver) - turning), 1e-9) << viscosity << " " << steps;
-      EXPECT_LT(energy(solver), kinetic) << viscosity << " " << steps;
-    }
-}
-
-TEST(Viscosity, LeavesRigidMotionAlone) {
-  ReferenceSettings s = freeSpace();
-  s.viscosity = 100;
-  ReferenceSolver solver = crowded(s);
-  solver.density();
-  for (size_t i = 0; i < solver.size(); ++i)
-    solver.state.velocity[i] = glm::dvec3(1, 2, 3) + glm::cross(glm::dvec3(4, -5, 6), solver.state.predicted[i]);
-  const std::vector<glm::dvec3> before = solver.state.velocity;
-  solver.viscosity(kStageStep);
-  for (size_t i = 0; i < solver.size(); ++i) EXPECT_LT(glm::length(solver.state.velocity[i] - before[i]), 1e-11) << i;
-}
-
-// The steps of the shaders leave at most kViscosityRemaining of the change that the exact solution makes.
-TEST(Viscosity, ItsStepsApproachTheExactSolution) {
-  for (const double viscosity : {0.1, 10.0, 1000.0}) {
-    ReferenceSettings s = freeSpace();
-    s.viscosity = viscosity;
-    ReferenceSolver exact = crowded(s);
-    s.viscositySteps = 64;
-    ReferenceSolver stepped = crowded(s);
-    const std::vector<glm::dvec3> before = exact.state.velocity;
-    double change = 0, error = 0;
-    for (ReferenceSolver* solver : {&exact, &stepped}) {
-      solver->density();
-      solver->viscosity(kStageStep);
-    }
-    for (size_t i = 0; i < exact.size(); ++i) {
-      const glm::dvec3 off = stepped.state.velocity[i] - exact.state.velocity[i], by = exact.state.velocity[i] - before[i];
-      error += glm::dot(off, off);
-      change += glm::dot(by, by);
-    }
-    EXPECT_GT(change, 0);
-    EXPECT_LT(std::sqrt(error / change), shared::kViscosityRemaining) << viscosity;
-  }
 }
 
 TEST(Vorticity, MeasuresCurlAndAcceleratesVortex) {

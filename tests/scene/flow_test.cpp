@@ -15,14 +15,6 @@ std::string list(const std::string& key, const std::string& entry, int count) {
   return scene02("\"" + key + "\": [" + entries + "]");
 }
 
-struct Refusal {
-  std::string text, message;
-};
-
-void expectRefusals(const std::vector<Refusal>& refusals) {
-  for (const Refusal& r : refusals) EXPECT_EQ(parseError(r.text), "dam.json: " + r.message) << r.text;
-}
-
 TEST(FlowScene, ReadsEveryKey) {
   const Scene s = scene(R"({"rill": "0.2", "fluid": {"spacing": 0.1, "capacity": 5000}, "domain": {"open": ["-y"], "open_removes": true},
     "emitters": [{"name": "tap", "disc": {"center": [1, 2, 3], "radius": 0.5, "normal": [0, -2, 0]}, "flow": 0.25, "from": 1, "until": 2.5,

@@ -1,99 +1,20 @@
-#include <sys/stat.h>
-
+// Scenes that are refused for their keys and values, with the message.
 #include "support.hpp"
 
 namespace rill::test {
 namespace {
 
-struct Case {
-  std::string text, message;
-};
-
-void expectMessages(const std::vector<Case>& cases) {
-  for (const Case& c : cases) EXPECT_EQ(parseError(c.text), "dam.json" + c.message) << c.text;
-}
-
-TEST(SceneErrors, ReportsLineAndColumnOfInvalidJson) {
-  expectMessages({
-      {"", ": empty file; expected a JSON object"},
-      {" \n ", ": empty file; expected a JSON object"},
-      {"[1]", ": found an array of length 1, expected an object { ... }"},
-      {"3", ": found a number, expected an object { ... }"},
-      {"{\n  \"rill\": \"0.1\",\n}", ":3:1: invalid JSON: trailing comma before }"},
-      {"{\"gravity\": [0, 1, ]}", ":1:20: invalid JSON: trailing comma before ]"},
-      {"{\n\"rill\" 1}", ":2:8: invalid JSON: while parsing object separator - unexpected number literal; expected ':'"},
-  });
-  EXPECT_NE(parseError("{\"rill\": \"0.1\"").find("dam.json:1:15: invalid JSON: while parsing object - unexpected end of input"),
-            std::string::npos)
-      << parseError("{\"rill\": \"0.1\"");
-  EXPECT_NE(parseError("{} {}").find("dam.json:1:4: invalid JSON"), std::string::npos);
-  EXPECT_NE(parseError("{\"rill\": NaN}").find("dam.json:1:10: invalid JSON"), std::string::npos) << parseError("{\"rill\": NaN}");
-  EXPECT_NE(parseError("{\"rill\": -Infinity}").find("dam.json:1:1"), std::string::npos);
-  EXPECT_NE(parseError("{\"rill\": 0x10}").find("invalid JSON"), std::string::npos);
-  EXPECT_NE(parseError("{'rill': 1}").find("invalid JSON"), std::string::npos);
-  EXPECT_NE(parseError("{ /* no end }").find("invalid JSON"), std::string::npos);
-  EXPECT_LT(parseError("{\"rill\": \"" + std::string(100000, 'a')).size(), 600U);
-}
-
-TEST(SceneErrors, OmitContentOfFilesThatAreNoScenes) {
-  for (const char* text : {"hunter2", "root:hunter2:0:0", "\"hunter2\"", "[\"hunter2\"]", "{\"password\": \"hunter2\"}",
-                           "{\"password\": hunter2}", "password=hunter2", "31415926", "31415926e999"}) {
-    const std::string message = parseError(text);
-    EXPECT_EQ(message.rfind("dam.json:", 0), 0U) << message;
-    EXPECT_EQ(message.find("hunter2"), std::string::npos) << message;
-    EXPECT_EQ(message.find("31415926"), std::string::npos) << message;
-  }
-}
-
-TEST(SceneErrors, RejectsDuplicateKeysAtAnyDepth) {
-  expectMessages({
-      {"{\"rill\": \"0.1\",\n \"rill\": \"0.1\"}", ":2:2: duplicate key \"rill\"; expected each key once in an object"},
-      {"{\"extras\": [{\"a\": {\"b\": 1, \"b\": 2}}]}", ":1:28: duplicate key \"b\"; expected each key once in an object"},
-      {"{\"extras\": {\"q\\\"\\\\\": 1, \"q\\\"\\\\\": 2}}", ":1:25: duplicate key \"q\"\\\"; expected each key once in an object"},
-      {"{\"a\\u0062\": 1, \"ab\": 2}", ":1:16: duplicate key \"ab\"; expected each key once in an object"},
-  });
-}
-
-TEST(SceneErrors, RejectsDeepNesting) {
-  const std::string deep = "{\"extras\": " + std::string(1'000'000, '[');
-  EXPECT_EQ(parseError(deep), "dam.json:1:267: nested deeper than 256 levels");
-  const std::string fits = with("\"extras\": " + std::string(255, '[') + std::string(255, ']'));
-  EXPECT_EQ(parseError(fits), "accepted");
-}
-
-TEST(SceneErrors, NamesUnsupportedEncodings) {
-  using namespace std::string_literals;
-  expectMessages({
-      {"\xFF\xFE{\0"s, ": the encoding is UTF-16, little-endian; expected UTF-8"},
-      {"\xFE\xFF\0{"s, ": the encoding is UTF-16, big-endian; expected UTF-8"},
-      {"\xFF\xFE\0\0{\0\0\0"s, ": the encoding is UTF-32, little-endian; expected UTF-8"},
-      {"\0\0\xFE\xFF\0\0\0{"s, ": the encoding is UTF-32, big-endian; expected UTF-8"},
-      {"{\0\"\0"s, ": the encoding is UTF-16, little-endian; expected UTF-8"},
-      {"\0{\0\""s, ": the encoding is UTF-16, big-endian; expected UTF-8"},
-      {"{\0\0\0"s, ": the encoding is UTF-32, little-endian; expected UTF-8"},
-      {"\0\0\0{"s, ": the encoding is UTF-32, big-endian; expected UTF-8"},
-      {"{\n\"title\": \"caf\xE9\"}", ":2:14: the byte 0xE9 is not valid UTF-8; expected UTF-8"},
-      {"{ // \xC0\x80\n}", ":1:6: the byte 0xC0 is not valid UTF-8; expected UTF-8"},
-      {"{ // \xED\xA0\x80\n}", ":1:6: the byte 0xED is not valid UTF-8; expected UTF-8"},
-      {"{\"\xF4\x90\x80\x80\": 1}", ":1:3: the byte 0xF4 is not valid UTF-8; expected UTF-8"},
-      {"{\"\xE2\x82", ":1:3: the byte 0xE2 is not valid UTF-8; expected UTF-8"},
-  });
-  EXPECT_EQ(parseError("\xEF\xBB\xBF" + with(R"("title": "caf)"
-                                             "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x8A\"")),
-            "accepted");
-}
-
 TEST(SceneErrors, RejectsInvalidAndNewerVersions) {
   const auto version = [](const std::string& value) { return R"({"rill": )" + value + R"(, "unknown": 1, "fluid": {"spacing": 0.1}})"; };
   const std::string expected = "expected the minimum Rill version, for example \"0.1\"";
-  expectMessages({
-      {R"({"fluid": {"spacing": 0.1}})", ": rill: missing; " + expected},
-      {version("0.1"), ": rill: found 0.1, expected a string"},
-      {version(R"("")"), ": rill: found \"\", " + expected},
-      {version(R"("1")"), ": rill: found \"1\", " + expected},
-      {version(R"("0.1.")"), ": rill: found \"0.1.\", " + expected},
-      {version(R"("0.1.2.3")"), ": rill: found \"0.1.2.3\", " + expected},
-      {version(R"("v0.1")"), ": rill: found \"v0.1\", " + expected},
+  expectRefusals({
+      {R"({"fluid": {"spacing": 0.1}})", "rill: missing; " + expected},
+      {version("0.1"), "rill: found 0.1, expected a string"},
+      {version(R"("")"), "rill: found \"\", " + expected},
+      {version(R"("1")"), "rill: found \"1\", " + expected},
+      {version(R"("0.1.")"), "rill: found \"0.1.\", " + expected},
+      {version(R"("0.1.2.3")"), "rill: found \"0.1.2.3\", " + expected},
+      {version(R"("v0.1")"), "rill: found \"v0.1\", " + expected},
   });
   for (const std::string value : {"999.0", "0.3", "0.999", "999.1.2", "99999999999999999999.0"}) {
     EXPECT_EQ(
@@ -109,19 +30,18 @@ TEST(SceneErrors, RejectsBodiesNamingTheKey) {
     return R"({"rill": "0.2", "fluid": {"spacing": 0.1}, "solids": [{"box": {}, "body": {)" + keys + "}" + more + "}]}";
   };
   EXPECT_EQ(parseError(body(R"("density": 500, "locked": ["x", "rz"])")), "accepted");
-  expectMessages({
-      {body(R"("density": 0)"), ": solids[0].body.density: 0 is out of range; expected a number above 0 (kg/m^3)"},
-      {body(""), ": solids[0].body: expected exactly one of \"density\", \"mass\"; found none"},
-      {body(R"("density": 500, "mass": 2)"),
-       ": solids[0].body: expected exactly one of \"density\", \"mass\"; found \"density\", \"mass\""},
+  expectRefusals({
+      {body(R"("density": 0)"), "solids[0].body.density: 0 is out of range; expected a number above 0 (kg/m^3)"},
+      {body(""), "solids[0].body: expected exactly one of \"density\", \"mass\"; found none"},
+      {body(R"("density": 500, "mass": 2)"), "solids[0].body: expected exactly one of \"density\", \"mass\"; found \"density\", \"mass\""},
       {body(R"("mass": 2, "locked": ["w"])"),
-       ": solids[0].body.locked[0]: found the string \"w\", expected one of \"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\""},
-      {body(R"("mass": 2, "locked": ["x", "x"])"), ": solids[0].body.locked[1]: \"x\" is given twice; expected each once"},
+       "solids[0].body.locked[0]: found the string \"w\", expected one of \"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\""},
+      {body(R"("mass": 2, "locked": ["x", "x"])"), "solids[0].body.locked[1]: \"x\" is given twice; expected each once"},
       {body(R"("mass": 2, "locked": ["ry"], "angular_velocity": [0, 1, 0])"),
-       ": solids[0].body.angular_velocity: found 1 along y, which is locked; expected 0"},
-      {body(R"("mass": 2, "from": -1)"), ": solids[0].body.from: -1 is out of range; expected a number of at least 0 (s)"},
+       "solids[0].body.angular_velocity: found 1 along y, which is locked; expected 0"},
+      {body(R"("mass": 2, "from": -1)"), "solids[0].body.from: -1 is out of range; expected a number of at least 0 (s)"},
       {body(R"("mass": 2)", R"(, "motion": [{"at": 0}])"),
-       ": solids[0].body: found a body with keyframes; expected \"body\" or \"motion\", not both"},
+       "solids[0].body: found a body with keyframes; expected \"body\" or \"motion\", not both"},
   });
 }
 
@@ -152,166 +72,123 @@ TEST(SceneErrors, RejectsKeysNewerThanTheVersionOfTheScene) {
 }
 
 TEST(SceneErrors, SuggestsNearestKeyForUnknownKeys) {
-  expectMessages({
-      {withFluid(R"("spacing": 0.1, "viscosty": 1)"), ": fluid.viscosty: unknown key; did you mean \"viscosity\"?"},
+  expectRefusals({
+      {withFluid(R"("spacing": 0.1, "viscosty": 1)"), "fluid.viscosty: unknown key; did you mean \"viscosity\"?"},
       {with(R"("Gravity": [0, 0, 0])"), ": Gravity: unknown key; did you mean \"gravity\"?"},
-      {with(R"("viscosity": 1)"), ": viscosity: unknown key; did you mean \"fluid.viscosity\"?"},
-      {with(R"("solver": {"jitter": 1})"), ": solver.jitter: unknown key; did you mean \"fill[].jitter\"?"},
-      {with(R"("fill": [{"seed": 1}])"), ": fill[0].seed: unknown key; did you mean \"seed\", at the top of the scene?"},
-      {with(R"("fill": [{"box": {"min": [0, 0, 0], "mx": [1, 1, 1]}}])"), ": fill[0].box.mx: unknown key; did you mean \"max\"?"},
+      {with(R"("viscosity": 1)"), "viscosity: unknown key; did you mean \"fluid.viscosity\"?"},
+      {with(R"("solver": {"jitter": 1})"), "solver.jitter: unknown key; did you mean \"fill[].jitter\"?"},
+      {with(R"("fill": [{"seed": 1}])"), "fill[0].seed: unknown key; did you mean \"seed\", at the top of the scene?"},
+      {with(R"("fill": [{"box": {"min": [0, 0, 0], "mx": [1, 1, 1]}}])"), "fill[0].box.mx: unknown key; did you mean \"max\"?"},
       {with(R"("look": {"zzzzzz": 1})"),
-       ": look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", "
+       "look.zzzzzz: unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", "
        "\"whitewater\", \"spray_exposure\", \"caustics\""},
       {with(R"("look": {"a.b\nc": 1})"),
-       ": look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", \"whitewater\", "
+       "look.\"a.b\\u000ac\": unknown key; expected one of \"preset\", \"surface\", \"sky\", \"stage\", \"environment\", \"whitewater\", "
        "\"spray_exposure\", \"caustics\""},
   });
   EXPECT_EQ(parseError(with(R"("extras": {"anything": [1, {"goes": null}]}, "$schema": "scene.schema.json")")), "accepted");
 }
 
 TEST(SceneErrors, RejectsWrongTypesAndLengths) {
-  expectMessages({
-      {R"({"rill": "0.1"})", ": fluid: required key is missing: material and resolution of the fluid"},
-      {R"({"rill": "0.1", "fluid": 3})", ": fluid: found 3, expected an object"},
-      {R"({"rill": "0.1", "fluid": {}})", ": fluid: expected exactly one of \"spacing\", \"particles\"; found none"},
+  expectRefusals({
+      {R"({"rill": "0.1"})", "fluid: required key is missing: material and resolution of the fluid"},
+      {R"({"rill": "0.1", "fluid": 3})", "fluid: found 3, expected an object"},
+      {R"({"rill": "0.1", "fluid": {}})", "fluid: expected exactly one of \"spacing\", \"particles\"; found none"},
       {withFluid(R"("spacing": 0.1, "particles": 10)"),
-       ": fluid: expected exactly one of \"spacing\", \"particles\"; found \"spacing\", \"particles\""},
-      {withFluid(R"("spacing": "wide")"), ": fluid.spacing: found the string \"wide\", expected a number above 0 (m)"},
-      {withFluid(R"("spacing": true)"), ": fluid.spacing: found true, expected a number above 0 (m)"},
-      {withFluid(R"("spacing": null)"), ": fluid.spacing: found null, expected a number above 0 (m)"},
-      {withFluid(R"("spacing": "NaN")"), ": fluid.spacing: found the string \"NaN\", which is not finite; expected a number above 0 (m)"},
-      {withFluid(R"("particles": 10.5)"), ": fluid.particles: found 10.5, expected a whole number from 1 to 4294967295"},
-      {with(R"("gravity": [0, 1])"), ": gravity: found an array of length 2, expected 3 numbers [x, y, z] (m/s^2)"},
-      {with(R"("gravity": -9.81)"), ": gravity: found -9.81, expected 3 numbers [x, y, z] (m/s^2)"},
-      {with(R"("gravity": [0, "down", 0])"), ": gravity[1]: found the string \"down\", expected a number (m/s^2)"},
-      {with(R"("title": 7)"), ": title: found 7, expected a string"},
-      {with(R"("seed": -1)"), ": seed: -1 is out of range; expected a whole number from 0 to 18446744073709551615"},
-      {with(R"("seed": 1.5)"), ": seed: found 1.5, expected a whole number from 0 to 18446744073709551615"},
+       "fluid: expected exactly one of \"spacing\", \"particles\"; found \"spacing\", \"particles\""},
+      {withFluid(R"("spacing": "wide")"), "fluid.spacing: found the string \"wide\", expected a number above 0 (m)"},
+      {withFluid(R"("spacing": true)"), "fluid.spacing: found true, expected a number above 0 (m)"},
+      {withFluid(R"("spacing": null)"), "fluid.spacing: found null, expected a number above 0 (m)"},
+      {withFluid(R"("spacing": "NaN")"), "fluid.spacing: found the string \"NaN\", which is not finite; expected a number above 0 (m)"},
+      {withFluid(R"("particles": 10.5)"), "fluid.particles: found 10.5, expected a whole number from 1 to 4294967295"},
+      {with(R"("gravity": [0, 1])"), "gravity: found an array of length 2, expected 3 numbers [x, y, z] (m/s^2)"},
+      {with(R"("gravity": -9.81)"), "gravity: found -9.81, expected 3 numbers [x, y, z] (m/s^2)"},
+      {with(R"("gravity": [0, "down", 0])"), "gravity[1]: found the string \"down\", expected a number (m/s^2)"},
+      {with(R"("title": 7)"), "title: found 7, expected a string"},
+      {with(R"("seed": -1)"), "seed: -1 is out of range; expected a whole number from 0 to 18446744073709551615"},
+      {with(R"("seed": 1.5)"), "seed: found 1.5, expected a whole number from 0 to 18446744073709551615"},
       {with(R"("seed": 18446744073709551616)"),
-       ": seed: 18446744073709551616 is out of range; expected a whole number from 0 to 18446744073709551615"},
-      {with(R"("fill": {})"), ": fill: found an object, expected a list of objects"},
-      {with(R"("fill": [3])"), ": fill[0]: found 3, expected an object"},
+       "seed: 18446744073709551616 is out of range; expected a whole number from 0 to 18446744073709551615"},
+      {with(R"("fill": {})"), "fill: found an object, expected a list of objects"},
+      {with(R"("fill": [3])"), "fill[0]: found 3, expected an object"},
       {with(R"("domain": {"open": "+y"})"),
-       ": domain.open: found the string \"+y\", expected a list of some of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+       "domain.open: found the string \"+y\", expected a list of some of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
       {with(R"("domain": {"open": ["y"]})"),
-       ": domain.open[0]: found the string \"y\", expected one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
-      {with(R"("domain": {"open": ["+y", "+y"]})"), ": domain.open[1]: \"+y\" is given twice; expected each once"},
+       "domain.open[0]: found the string \"y\", expected one of \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\""},
+      {with(R"("domain": {"open": ["+y", "+y"]})"), "domain.open[1]: \"+y\" is given twice; expected each once"},
       {with(R"("solver": {"time_step": "atuo"})"),
-       ": solver.time_step: found the string \"atuo\", expected \"auto\" or a number above 0 (s)"},
+       "solver.time_step: found the string \"atuo\", expected \"auto\" or a number above 0 (s)"},
       {with(R"("solver": {"kernel": "wendlnd"})"),
-       ": solver.kernel: found the string \"wendlnd\", expected one of \"wendland\", \"poly6_spiky\"; did you mean \"wendland\"?"},
+       "solver.kernel: found the string \"wendlnd\", expected one of \"wendland\", \"poly6_spiky\"; did you mean \"wendland\"?"},
       {with(R"("look": {"surface": "plane"})"),
-       ": look.surface: found the string \"plane\", expected one of \"auto\", \"planes\", \"curvature_flow\", \"narrow_range\"; did you "
+       "look.surface: found the string \"plane\", expected one of \"auto\", \"planes\", \"curvature_flow\", \"narrow_range\"; did you "
        "mean "
        "\"planes\"?"},
       {with(R"("probes": [{"name": "p", "level": [1, 2, 3]}])"),
-       ": probes[0].level: found an array of length 3, expected 2 numbers [x, z] (m)"},
+       "probes[0].level: found an array of length 3, expected 2 numbers [x, z] (m)"},
   });
 }
 
 TEST(SceneErrors, RejectsNumbersOutOfRange) {
   const auto solver = [](const std::string& keys) { return with(R"("solver": {)" + keys + "}"); };
   const auto solid = [](const std::string& keys) { return with(R"("solids": [{"sphere": {"radius": 1}, )" + keys + "}]"); };
-  expectMessages({
-      {withFluid(R"("spacing": 0)"), ": fluid.spacing: 0 is out of range; expected a number above 0 (m)"},
-      {withFluid(R"("spacing": -1)"), ": fluid.spacing: -1 is out of range; expected a number above 0 (m)"},
-      {withFluid(R"("spacing": 1e39)"), ": fluid.spacing: 1e+39 is out of range of a 32-bit float; expected a number above 0 (m)"},
-      {withFluid(R"("spacing": 1e-50)"), ": fluid.spacing: 1e-50 is out of range of a 32-bit float; expected a number above 0 (m)"},
+  expectRefusals({
+      {withFluid(R"("spacing": 0)"), "fluid.spacing: 0 is out of range; expected a number above 0 (m)"},
+      {withFluid(R"("spacing": -1)"), "fluid.spacing: -1 is out of range; expected a number above 0 (m)"},
+      {withFluid(R"("spacing": 1e39)"), "fluid.spacing: 1e+39 is out of range of a 32-bit float; expected a number above 0 (m)"},
+      {withFluid(R"("spacing": 1e-50)"), "fluid.spacing: 1e-50 is out of range of a 32-bit float; expected a number above 0 (m)"},
       {withFluid(R"("spacing": 1e999)"), ":1:38: the number 1e999 is out of range; expected a number that fits a 32-bit float"},
       {withFluid(R"("spacing": 1e-20)"),
-       ": fluid.spacing: the mass of a particle, density x spacing^3, is 1e-57 kg; expected a mass that fits a 32-bit float"},
-      {withFluid(R"("particles": 0)"), ": fluid.particles: 0 is out of range; expected a whole number from 1 to 4294967295"},
-      {withFluid(R"("spacing": 1, "smoothing_ratio": 1.1)"),
-       ": fluid.smoothing_ratio: 1.1 is out of range; expected a number from 1.2 to 4"},
-      {withFluid(R"("spacing": 1, "tensile_radius": 1)"),
-       ": fluid.tensile_radius: 1 is out of range; expected a number above 0 and below 1"},
-      {withFluid(R"("spacing": 1, "viscosity": -0.1)"), ": fluid.viscosity: -0.1 is out of range; expected a number of at least 0 (Pa s)"},
-      {with(R"("gravity": [0, -1e40, 0])"), ": gravity[1]: -1e+40 is out of range of a 32-bit float; expected a number (m/s^2)"},
-      {with(R"("duration": -1)"), ": duration: -1 is out of range; expected a number of at least 0 (s)"},
-      {solver(R"("cfl": 10.5)"), ": solver.cfl: 10.5 is out of range; expected a number above 0 and at most 10"},
-      {solver(R"("iterations": 0)"), ": solver.iterations: 0 is out of range; expected a whole number from 1 to 1000"},
-      {solver(R"("max_substeps": 257)"), ": solver.max_substeps: 257 is out of range; expected a whole number from 1 to 256"},
-      {solver(R"("relaxation": 2.1)"), ": solver.relaxation: 2.1 is out of range; expected a number above 0 and at most 2"},
-      {solver(R"("warm_start": 0.6)"), ": solver.warm_start: 0.6 is out of range; expected a number from 0 to 0.5"},
-      {solid(R"("restitution": 1.5)"), ": solids[0].restitution: 1.5 is out of range; expected a number from 0 to 1"},
-      {with(R"("camera": {"fov_y_deg": 180})"),
-       ": camera.fov_y_deg: 180 is out of range; expected a number above 0 and below 180 (degrees)"},
-      {with(R"("fill": [{"box": {}, "jitter": 0.51}])"), ": fill[0].jitter: 0.51 is out of range; expected a number from 0 to 0.5"},
-      {with(R"("fill": [{"sphere": {"radius": 0}}])"), ": fill[0].sphere.radius: 0 is out of range; expected a number above 0 (m)"},
+       "fluid.spacing: the mass of a particle, density x spacing^3, is 1e-57 kg; expected a mass that fits a 32-bit float"},
+      {withFluid(R"("particles": 0)"), "fluid.particles: 0 is out of range; expected a whole number from 1 to 4294967295"},
+      {withFluid(R"("spacing": 1, "smoothing_ratio": 1.1)"), "fluid.smoothing_ratio: 1.1 is out of range; expected a number from 1.2 to 4"},
+      {withFluid(R"("spacing": 1, "tensile_radius": 1)"), "fluid.tensile_radius: 1 is out of range; expected a number above 0 and below 1"},
+      {withFluid(R"("spacing": 1, "viscosity": -0.1)"), "fluid.viscosity: -0.1 is out of range; expected a number of at least 0 (Pa s)"},
+      {with(R"("gravity": [0, -1e40, 0])"), "gravity[1]: -1e+40 is out of range of a 32-bit float; expected a number (m/s^2)"},
+      {with(R"("duration": -1)"), "duration: -1 is out of range; expected a number of at least 0 (s)"},
+      {solver(R"("cfl": 10.5)"), "solver.cfl: 10.5 is out of range; expected a number above 0 and at most 10"},
+      {solver(R"("iterations": 0)"), "solver.iterations: 0 is out of range; expected a whole number from 1 to 1000"},
+      {solver(R"("max_substeps": 257)"), "solver.max_substeps: 257 is out of range; expected a whole number from 1 to 256"},
+      {solver(R"("relaxation": 2.1)"), "solver.relaxation: 2.1 is out of range; expected a number above 0 and at most 2"},
+      {solver(R"("warm_start": 0.6)"), "solver.warm_start: 0.6 is out of range; expected a number from 0 to 0.5"},
+      {solid(R"("restitution": 1.5)"), "solids[0].restitution: 1.5 is out of range; expected a number from 0 to 1"},
+      {with(R"("camera": {"fov_y_deg": 180})"), "camera.fov_y_deg: 180 is out of range; expected a number above 0 and below 180 (degrees)"},
+      {with(R"("fill": [{"box": {}, "jitter": 0.51}])"), "fill[0].jitter: 0.51 is out of range; expected a number from 0 to 0.5"},
+      {with(R"("fill": [{"sphere": {"radius": 0}}])"), "fill[0].sphere.radius: 0 is out of range; expected a number above 0 (m)"},
   });
 }
 
 TEST(SceneErrors, ChecksRulesBetweenKeys) {
   const std::string order = "; expected min below max on every axis";
-  expectMessages({
-      {with(R"("domain": {"min": [0, 2, 0]})"), ": domain.max[1]: max is 1 and min is 2 along y" + order},
-      {with(R"("fill": [{"box": {"min": [0, 0, 1], "max": [1, 1, 1]}}])"), ": fill[0].box.max[2]: max is 1 and min is 1 along z" + order},
-      {with(R"("solids": [{"box": {"min": [3, 0, 1], "max": [1, 1, 2]}}])"),
-       ": solids[0].box.max[0]: max is 1 and min is 3 along x" + order},
-      {with(R"("fill": [{}])"), ": fill[0]: expected exactly one of \"box\", \"sphere\", \"mesh\", \"particles\"; found none"},
+  expectRefusals({
+      {with(R"("domain": {"min": [0, 2, 0]})"), "domain.max[1]: max is 1 and min is 2 along y" + order},
+      {with(R"("fill": [{"box": {"min": [0, 0, 1], "max": [1, 1, 1]}}])"), "fill[0].box.max[2]: max is 1 and min is 1 along z" + order},
+      {with(R"("solids": [{"box": {"min": [3, 0, 1], "max": [1, 1, 2]}}])"), "solids[0].box.max[0]: max is 1 and min is 3 along x" + order},
+      {with(R"("fill": [{}])"), "fill[0]: expected exactly one of \"box\", \"sphere\", \"mesh\", \"particles\"; found none"},
       {with(R"("fill": [{"box": {}, "sphere": {}}])"),
-       ": fill[0]: expected exactly one of \"box\", \"sphere\", \"mesh\", \"particles\"; found \"box\", \"sphere\""},
-      {with(R"("solids": [{"friction": 1}])"), ": solids[0]: expected exactly one of \"box\", \"sphere\", \"mesh\"; found none"},
+       "fill[0]: expected exactly one of \"box\", \"sphere\", \"mesh\", \"particles\"; found \"box\", \"sphere\""},
+      {with(R"("solids": [{"friction": 1}])"), "solids[0]: expected exactly one of \"box\", \"sphere\", \"mesh\"; found none"},
       {with(R"("probes": [{"name": "a"}])"),
-       ": probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\", \"pressure\", \"flow\"; found none"},
-      {with(R"("probes": [{"front": "+x"}])"), ": probes[0].name: required key is missing: name in the statistics; unique, not empty"},
-      {with(R"("probes": [{"name": "", "front": "+x"}])"), ": probes[0].name: found an empty name, expected a unique name"},
+       "probes[0]: expected exactly one of \"level\", \"front\", \"load\", \"pose\", \"pressure\", \"flow\"; found none"},
+      {with(R"("probes": [{"front": "+x"}])"), "probes[0].name: required key is missing: name in the statistics; unique, not empty"},
+      {with(R"("probes": [{"name": "", "front": "+x"}])"), "probes[0].name: found an empty name, expected a unique name"},
       {with(R"("probes": [{"name": "a", "front": "+x"}, {"name": "a", "front": "+y"}])"),
-       ": probes[1].name: \"a\" is also the name of probes[0]; expected unique names"},
+       "probes[1].name: \"a\" is also the name of probes[0]; expected unique names"},
       {with(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})"),
-       ": camera.target: eye and target are the same point; expected two different points"},
+       "camera.target: eye and target are the same point; expected two different points"},
       {with(R"("solids": [{"box": {}, "rotation": [0, 0, 0, 0]}])"),
-       ": solids[0].rotation: the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation"},
+       "solids[0].rotation: the quaternion has zero length; expected a non-zero quaternion, [0, 0, 0, 1] for no rotation"},
       {with(R"("gravity_changes": [{"at": 1}, {"at": 1}])"),
-       ": gravity_changes[1].at: found 1 s after 1 s in the previous entry, expected increasing times"},
-      {with(R"("gravity_changes": [{"at": -1}])"), ": gravity_changes[0].at: -1 is out of range; expected a number of at least 0 (s)"},
+       "gravity_changes[1].at: found 1 s after 1 s in the previous entry, expected increasing times"},
+      {with(R"("gravity_changes": [{"at": -1}])"), "gravity_changes[0].at: -1 is out of range; expected a number of at least 0 (s)"},
       {with(R"("solids": [{"sphere": {}, "motion": [{"at": 2}, {"at": 1}]}])"),
-       ": solids[0].motion[1].at: found 1 s after 2 s in the previous entry, expected increasing times"},
+       "solids[0].motion[1].at: found 1 s after 2 s in the previous entry, expected increasing times"},
   });
   std::string solids;
   for (int i = 0; i < 4096; ++i) solids += R"({"sphere": {}},)";
   EXPECT_EQ(parseError(with("\"solids\": [" + solids.substr(0, solids.size() - 1) + "]")), "accepted");
   EXPECT_EQ(parseError(with("\"solids\": [" + solids + "{\"sphere\": {}}]")),
             "dam.json: solids: found 4,097 entries, expected at most 4,096");
-}
-
-TEST(SceneErrors, RejectsFilesThatAreNotScenes) {
-  const Folder folder;
-  const auto load = [](const std::filesystem::path& file) {
-    const auto result = loadScene(file);
-    return result ? std::string("accepted") : result.error().message;
-  };
-  EXPECT_EQ(load(folder.path / "absent.json"), (folder.path / "absent.json").string() + ": no such file");
-  EXPECT_EQ(load(folder.path), folder.path.string() + ": found a directory, expected a regular file");
-  const auto pipe = folder.path / "pipe.json";
-  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(load(pipe), pipe.string() + ": found a pipe, expected a regular file");
-  EXPECT_EQ(load("/dev/zero"), "/dev/zero: found a device, expected a regular file");
-  const auto large = folder.write("large.json", with("\"about\": \"" + std::string(16 << 20, 'x') + "\""));
-  EXPECT_NE(load(large).find("bytes; expected at most 16,777,216"), std::string::npos) << load(large);
-  const auto small = folder.write("small.json", withFluid("\"spacing\": 0.1"));
-  const auto good = loadScene(small);
-  ASSERT_TRUE(good) << good.error().message;
-  EXPECT_EQ(good->name, "small");
-  EXPECT_EQ(good->file, small);
-  const auto broken = folder.write("broken.json", "{");
-  EXPECT_EQ(load(broken).rfind(broken.string() + ":1:", 0), 0U) << load(broken);
-}
-
-TEST(SceneErrors, RejectsMissingParticleFile) {
-  const Folder folder;
-  const std::string text = with(R"("fill": [{"particles": {"file": "settled.ply"}}])");
-  const auto missing = parseScene(text, "dam.json", folder.path);
-  ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().message,
-            "dam.json: fill[0].particles.file: \"settled.ply\": no such file (looked for " + (folder.path / "settled.ply").string() + ")");
-  folder.write("settled.ply", "ply\n");
-  const auto there = parseScene(text, "dam.json", folder.path);
-  ASSERT_TRUE(there);
-  EXPECT_TRUE(std::get<ParticleFile>(there->fill[0].shape).file.is_absolute());
-  EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": ""}}])")).find("expected a file name"), std::string::npos);
-  EXPECT_NE(parseError(with(R"("fill": [{"particles": {}}])")).find("fill[0].particles.file: required key is missing"), std::string::npos);
-  EXPECT_NE(parseError(with(R"("fill": [{"particles": {"file": "."}}])")).find("not a regular file; expected a file"), std::string::npos);
 }
 
 }  // namespace

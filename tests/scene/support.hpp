@@ -57,6 +57,15 @@ inline std::string parseError(std::string_view text, std::vector<Override> overr
   return result.error().message;
 }
 
+/// A scene and the message that refuses it, which follows the name of the file, or ":line:column" behind it.
+struct Refusal {
+  std::string text, message;
+};
+inline void expectRefusals(const std::vector<Refusal>& refusals) {
+  for (const Refusal& r : refusals)
+    EXPECT_EQ(parseError(r.text), "dam.json" + std::string(r.message.starts_with(':') ? "" : ": ") + r.message) << r.text;
+}
+
 /// A minimal scene with the additional keys `more`.
 inline std::string with(std::string_view more) { return R"({"rill": "0.1", "fluid": {"spacing": 0.1}, )" + std::string(more) + "}"; }
 /// A scene with `keys` in `fluid`.
