@@ -11,7 +11,8 @@ namespace {
 
 // SI units; the published figures are those of three finite-element programs, which agree.
 constexpr double kLid = 2.4;  // m: in a box without room, particles hardly pass each other
-constexpr double kWide = 1, kHigh = 2, kRadius = 0.25, kGravity = 0.98, kRiseEnd = 3, kLiquidDensity = 1000, kLiquidViscosity = 10;
+constexpr double kTankWide = 1, kHigh = 2, kRadius = 0.25, kBubbleGravity = 0.98, kRiseEnd = 3, kLiquidDensity = 1000,
+                 kLiquidViscosity = 10;
 constexpr double kRiseSpacing[kLevels] = {1.0 / 24, 1.0 / 32, 1.0 / 40};
 
 constexpr double kBubbleDensity = 100, kBubbleViscosity = 1, kBubbleTension = 24.5;
@@ -19,18 +20,18 @@ constexpr double kLargestRise = 0.2417, kCenterAtEnd = 1.0813;
 
 Expected<Outcome> risingBubble(const Bench& bench, unsigned level) {
   const double spacing = kRiseSpacing[level], thick = 6 * spacing;
-  Scene slab = boxScene(spacing, {0, 0, 0}, {kWide, kLid, thick});
-  slab.gravity = {0, -kGravity, 0};
+  Scene slab = boxScene(spacing, {0, 0, 0}, {kTankWide, kLid, thick});
+  slab.gravity = {0, -kBubbleGravity, 0};
   slab.fluids = {{.name = "liquid", .density = kLiquidDensity, .viscosity = kLiquidViscosity},
                  {.name = "bubble", .density = kBubbleDensity, .viscosity = kBubbleViscosity}};
   slab.interfaces = {{.between = {"liquid", "bubble"}, .tension = kBubbleTension}};
   Cloud liquid{.position = {}, .velocity = {}, .spacing = spacing}, bubble = liquid;
   const auto cells = [&](double length) { return static_cast<int>(std::round(length / spacing)); };
-  for (int i = 0; i < cells(kWide); ++i)
+  for (int i = 0; i < cells(kTankWide); ++i)
     for (int j = 0; j < cells(kHigh); ++j)
       for (int n = 0; n < cells(thick); ++n) {
         const Double3 x{(i + 0.5) * spacing, (j + 0.5) * spacing, (n + 0.5) * spacing};
-        Cloud& own = std::hypot(x.x - kWide / 2, x.y - 2 * kRadius) < kRadius ? bubble : liquid;
+        Cloud& own = std::hypot(x.x - kTankWide / 2, x.y - 2 * kRadius) < kRadius ? bubble : liquid;
         own.position.push_back(x);
         own.velocity.push_back({});
       }

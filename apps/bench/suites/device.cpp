@@ -3,19 +3,16 @@
 #include <chrono>
 #include <cmath>
 
+#include "bench/device/description.hpp"
 #include "bench/device/device_speed.hpp"
+#include "bench/device/picture_times.hpp"
 #include "bench/device/self_check.hpp"
 #include "bench/device/simulation_times.hpp"
+#include "bench/device/sort_rates.hpp"
 #include "bench/device/viewer_rate.hpp"
 #include "bench/suites/count_name.hpp"
 #include "bench/suites/suites.hpp"
-#include "bench/suites/tank.hpp"
 #include "core/words.hpp"
-#include "gpu/device_impl.hpp"
-#include "gpu/subgroups.hpp"
-#include "gpu/vulkan_error.hpp"
-#include "offline/painter.hpp"
-#include "shared/fluid_records.h"
 
 namespace rill::bench {
 namespace device_suite {
@@ -32,8 +29,6 @@ constexpr double kViewer_s = 20;
 
 /// Without an exponent.
 std::string milliseconds(double ms) { return number(ms, ms >= 1000 ? std::max(3, int(std::log10(ms)) + 1) : 3); }
-
-std::string sizeText(const std::pair<uint32_t, uint32_t>& size) { return std::to_string(size.first) + "x" + std::to_string(size.second); }
 
 /// The suite, section by section. Each ends within its time, or says what it left out.
 class DeviceReport {
@@ -67,42 +62,13 @@ class DeviceReport {
   Expected<void> describe() {
     auto workbench = Workbench::open(bench_);
     if (!workbench) return workbench.error();
-    const DeviceImpl& device = implOf(workbench->device());
-    const DeviceInfo& info = device.info;
-    const ClusterChoice cluster = chooseCluster(info, device.canSetSubgroupSize, device.vendor, kFluidGroup);
-    const VkPhysicalDeviceLimits& limits = device.limits;
-    availableBytes_ = workbench->device().availableBytes();
-    Table table{"Device, limits and chosen variants", {"what", "value"}, {}, ""};
-    const auto add = [&](const char* what, std::string value) { table.rows.push_back({what, std::move(value)}); };
-    add("device", info.name);
-    add("driver", info.driver);
-    add("Vulkan", info.api);
-    add("device memory", bytesText(info.deviceLocalBytes) + ", available " + bytesText(availableBytes_));
-    add("largest buffer", bytesText(info.maxBufferBytes) + " (" + std::string(info.maxBufferName) + ")");
-    add("texels of a buffer", grouped(info.maxTexelBufferElements));
-    add("workgroup",
-        grouped(limits.maxComputeWorkGroupInvocations) + " invocations, " + bytesText(limits.maxComputeSharedMemorySize) + " shared");
-    add("timestamps", device.timestampMask ? number(limits.timestampPeriod) + " ns" : "none");
-    add("subgroups", std::to_string(info.subgroupSize) + ", from " + std::to_string(info.minSubgroupSize) + " to " +
-                         std::to_string(info.maxSubgroupSize) + (device.canSetSubgroupSize ? ", can be required" : ", cannot be required"));
-    add("subgroup size required", cluster.need.size ? std::to_string(cluster.need.size) : "none");
-    add("particles a cluster", std::to_string(cluster.cluster));
-    add("arrays are read through",
-        std::string(info.texelReads ? "uniform texel buffers: " : "storage buffers: ") + std::string(info.readsBecause));
-    add("passes", device.isCpu ? "separate (CPU)" : "merged (not a CPU)");
-    name_ = info.name;
-    summarize("device", info.name + ", " + info.driver + ", Vulkan " + info.api);
-    summarize("variants", "clusters of " + std::to_string(cluster.cluster) + ", subgroups of " +
-                              (cluster.need.size ? std::to_string(cluster.need.size)
-                                                 : std::to_string(info.minSubgroupSize) + " to " + std::to_string(info.maxSubgroupSize)) +
-                              ", " + (info.texelReads ? "texel buffers" : "storage buffers"));
-    if (selected("device"))
-      report_.results.push_back({{"case", "device"},
-                                 {"cluster", cluster.cluster},
-                                 {"required_subgroup_size", cluster.need.size},
-                                 {"texel_reads", info.texelReads},
-                                 {"available_bytes", availableBytes_}});
-    report_.tables.push_back(std::move(table));
+    DeviceDescription device = describeDevice(workbench->device());
+    name_ = device.name;
+    availableBytes_ = device.availableBytes;
+    summarize("device", device.identity);
+    summarize("variants", device.variants);
+    if (selected("device")) report_.results.push_back(std::move(device.result));
+    report_.tables.push_back(std::move(device.table));
     return {};
   }
 
@@ -215,25 +181,15 @@ class DeviceReport {
         table.rows.push_back({grouped(count), "-", "-", "-", "would take about " + number(needed) + " s"});
         continue;
       }
-      const Clock::time_point begin = Clock::now();
-      Options options = bench_.options();
-      options.quiet = true;
-      options.quick = false;
-      options.only = "cells-" + countName(count);
-      Bench one(options);
-      auto sorted = runSort(one);
+      const auto sorted = timeSorts(bench_, count);
       if (!sorted) return sorted.error();
-      last_s = std::chrono::duration<double>(Clock::now() - begin).count();
+      last_s = sorted->took_s;
       report_.failures.insert(report_.failures.end(), sorted->failures.begin(), sorted->failures.end());
-      if (sorted->results.empty()) continue;
-      const Json& result = sorted->results.front();
-      const auto rate = [&](const char* method) {
-        return result[method].contains("ms") ? count / (1e3 * result[method]["ms"]["median"].get<double>()) : std::nan("");
-      };
-      table.rows.push_back({grouped(count), number(rate("counting")), number(rate("radix")), number(rate("std_sort")), ""});
-      summarize("sort of " + grouped(count) + " keys", number(rate("counting")) + " M keys/s; std::sort " + number(rate("std_sort")));
+      if (sorted->stopped) continue;
+      table.rows.push_back({grouped(count), number(sorted->counting), number(sorted->radix), number(sorted->stdSort), ""});
+      summarize("sort of " + grouped(count) + " keys", number(sorted->counting) + " M keys/s; std::sort " + number(sorted->stdSort));
       report_.results.push_back(
-          {{"case", "sort-" + countName(count)}, {"counting_Mkeys", rate("counting")}, {"radix_Mkeys", rate("radix")}});
+          {{"case", "sort-" + countName(count)}, {"counting_Mkeys", sorted->counting}, {"radix_Mkeys", sorted->radix}});
     }
     if (!table.rows.empty()) report_.tables.push_back(std::move(table));
     return {};
@@ -242,42 +198,15 @@ class DeviceReport {
   Expected<void> draw() {
     Table table{
         "A picture of 50,000 particles, ms", {"size", "surface and look", "frames", "left out"}, {}, "Without the copy to the host."};
-    const double end = std::min(elapsed() + kShareOfPictures * bench_.options().budget_s, bench_.options().budget_s);
-    auto workbench = Workbench::open(bench_);
-    if (!workbench) return workbench.error();
-    const auto scene = tank(50'000);
-    if (!scene) return scene.error();
-    const auto start = makeParticles(*scene);
-    if (!start) return start.error();
-    auto fluid = Fluid::create(workbench->device(), {.scene = &*scene, .particles = &*start});
-    if (!fluid) return fluid.error();
-    if (auto advanced = advanceFluid(*workbench, *fluid, 2.0 / 60); !advanced) return advanced.error();
-    workbench->timePasses(true);
-    offline::Painter painter(*scene, *start);
-    for (const auto& [width, height] : kSizes) {
-      if (bench_.stopped()) break;
-      const std::string size = sizeText({width, height});
-      if (!selected("picture-" + size)) continue;
-      bench_.step("picture of " + size);
-      if (elapsed() >= end) {
-        table.rows.push_back({size, "-", "0", "no time left"});
-        continue;
-      }
-      if (auto ready = painter.prepare(workbench->device(), "final", width, height); !ready) return ready.error();
-      std::vector<double> ms;
-      for (int frame = 0; frame <= 20 && (frame < 3 || elapsed() < end) && !bench_.stopped(); ++frame) {  // the first compiles shaders
-        const auto drawn =
-            workbench->run([&](Graph& graph) { (void)painter.declare(graph, fluid->present(graph), "final", width, height, 0); });
-        if (!drawn) return drawn.error();
-        double sum = 0;
-        for (const Timing& pass : workbench->passTimes())
-          if (!pass.name.starts_with("readback")) sum += pass.ms;
-        if (frame > 0) ms.push_back(sum > 0 ? sum : drawn->run_ms);
-      }
-      table.rows.push_back({size, milliseconds(median(ms)), std::to_string(ms.size()), ""});
+    const double budget_s = std::min(kShareOfPictures * bench_.options().budget_s, left());
+    const auto timed = timePictures(bench_, kSizes, budget_s, [&](const PictureTimes& picture) {
+      const auto& [size, ms, leftOut] = picture;
+      table.rows.push_back({size, ms.empty() ? "-" : milliseconds(median(ms)), std::to_string(ms.size()), leftOut});
+      if (!leftOut.empty()) return;
       summarize("picture, " + size, milliseconds(median(ms)) + " ms");
       report_.results.push_back({{"case", "picture-" + size}, {"ms", sampleStatistics(ms)}});
-    }
+    });
+    if (!timed) return timed.error();
     if (!table.rows.empty()) report_.tables.push_back(std::move(table));
     return {};
   }

@@ -1,11 +1,11 @@
-// Cost of each feature when enabled, checks that disabled features cost nothing, and the passes that each scene runs.
+// Cost of each feature when enabled, and checks that disabled features cost nothing.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 
-#include "bench/suites/feature_cases.hpp"
+#include "bench/suites/frame_stepper.hpp"
+#include "bench/suites/scene_passes.hpp"
 #include "bench/suites/suites.hpp"
 #include "core/words.hpp"
 
@@ -13,44 +13,8 @@ namespace rill::bench {
 namespace {
 
 using offline::PassTime;
-using offline::Simulation;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kFeatureFrame_s = 0.01;  // twelve substeps: two full blocks, so that no recorded substep is skipped
-constexpr int kWarmUp = 2;                // frames of shader compilation and a wrong estimate of the number of substeps
-
-/// A simulation that advances frame by frame, so that several can be interleaved.
-class FrameStepper {
- public:
-  static Expected<FrameStepper> open(const Bench& bench, const std::string& scene, const Overrides& overrides,
-                                     const Feature* feature = nullptr) {
-    auto read = namedScene(scene, overrides);
-    if (!read) return read.error();
-    if (feature && feature->solid) read->solids.push_back(*feature->solid);
-    offline::Options options = simulationOptions(bench);
-    options.passTimes = feature && feature->passTimes;
-    auto simulation = Simulation::open(std::move(*read), options);
-    if (!simulation) return simulation.error();
-    FrameStepper stepper;
-    stepper.simulation_ = std::move(*simulation);
-    stepper.measuresFigures_ = feature && feature->measuresFigures;
-    return stepper;
-  }
-
-  /// Advances one frame and returns its wall time in ms, including figures if enabled.
-  Expected<double> frame(double seconds) {
-    const Clock::time_point begin = Clock::now();
-    if (auto advanced = simulation_->advance(seconds); !advanced) return advanced.error();
-    if (measuresFigures_)
-      if (auto measured = simulation_->stats(); !measured) return measured.error();
-    return 1e3 * std::chrono::duration<double>(Clock::now() - begin).count();
-  }
-  Expected<offline::Stats> stats() { return simulation_->stats(); }
-
- private:
-  std::optional<Simulation> simulation_;
-  bool measuresFigures_ = false;
-};
 
 /// Samples of one run.
 struct Samples {
@@ -81,13 +45,6 @@ Expected<void> runInterleaved(const Bench& bench, std::vector<FrameStepper>& ste
   return {};
 }
 
-/// Passes and their counts: "build list 4, density 12".
-std::string passList(const std::vector<PassTime>& passes) {
-  std::string text;
-  for (const PassTime& pass : passes) text += (text.empty() ? "" : ", ") + pass.name + " " + std::to_string(pass.recorded);
-  return text;
-}
-
 /// Passes that are added to those of `base`, and removed ones as "no NAME".
 std::string passChanges(const std::vector<PassTime>& passes, const std::vector<PassTime>& base) {
   std::string text;
@@ -111,12 +68,6 @@ void checkDisabled(const std::string& name, const Samples& off, const Samples& b
     report.failures.push_back(name + " disabled: expected the passes of the base scene, found " + changes);
   if (off.end.stateHash != base.end.stateHash)
     report.failures.push_back(name + " disabled: the state hash differs from that of the base scene");
-}
-
-Json passesJson(const std::vector<PassTime>& passes) {
-  Json json = Json::object();
-  for (const PassTime& pass : passes) json[pass.name] = pass.recorded;
-  return json;
 }
 
 Json samplesJson(const Samples& samples) {
@@ -228,66 +179,6 @@ Expected<void> costs(Bench& bench, const std::vector<Feature>& chosen, Report& r
   return {};
 }
 
-Expected<void> passes(Bench& bench, const std::vector<PassScene>& scenes, Report& report) {
-  Table cost{"Scenes, in frames of 1/60 s",
-             {"scene", "particles", "ms per frame", "substeps", "passes", "kinds", "skipped"},
-             {},
-             "passes: recorded in one frame, including those that measure figures. kinds: distinct passes. skipped: passes not recorded."};
-  Table recorded{
-      "Passes of a scene, recorded per frame", {"pass"}, {}, "Recorded passes without work are empty dispatches. -: not recorded."};
-  Table skipped{"Skipped passes and reasons", {"pass", "reason", "scenes"}, {}, ""};
-  std::vector<std::vector<PassTime>> all;
-  std::map<std::pair<std::string, std::string>, std::string> reasons;
-  for (const PassScene& scene : scenes) {
-    if (bench.stopped()) break;
-    const std::string name(scene.name);
-    bench.step(name + ", passes");
-    auto stepper = FrameStepper::open(bench, std::string(scene.scene), scene.overrides);
-    if (!stepper) return stepper.error();
-    std::vector<double> ms;
-    for (int frame = 0; frame < kWarmUp + 3; ++frame) {
-      const auto took = stepper->frame(1.0 / 60);
-      if (!took) return took.error();
-      if (frame >= kWarmUp) ms.push_back(*took);
-    }
-    const auto stats = stepper->stats();
-    if (!stats) return stats.error();
-    uint64_t runs = 0;
-    Json json{{"case", name + ", passes"}, {"scene", scene.scene}, {"ms_a_frame", sampleStatistics(ms)}, {"substeps", stats->substeps}};
-    json["passes"] = passesJson(stats->passes);
-    json["skipped"] = Json::object();
-    for (const PassTime& pass : stats->passes) runs += pass.recorded;
-    for (const auto& [pass, reason] : stats->skipped) {
-      json["skipped"][pass] = reason;
-      std::string& where = reasons[{pass, reason}];
-      where += (where.empty() ? "" : ", ") + name;
-    }
-    report.results.push_back(std::move(json));
-    cost.rows.push_back({name, grouped(stats->particles), number(median(ms)), std::to_string(stats->substeps), std::to_string(runs),
-                         std::to_string(stats->passes.size()), std::to_string(stats->skipped.size())});
-    recorded.columns.push_back(name);
-    if (stats->particles == 0 && runs > 0)
-      report.failures.push_back(name + ": found passes " + passList(stats->passes) + " in a scene without particles, expected none");
-    all.push_back(stats->passes);
-  }
-  std::vector<std::string> names;
-  for (const auto& list : all)
-    for (const PassTime& pass : list)
-      if (std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
-  for (const std::string& name : names) {
-    std::vector<std::string> row{name};
-    for (const auto& list : all) {
-      const auto found = std::ranges::find(list, name, &PassTime::name);
-      row.push_back(found == list.end() ? "-" : std::to_string(found->recorded));
-    }
-    recorded.rows.push_back(std::move(row));
-  }
-  for (const auto& [what, where] : reasons) skipped.rows.push_back({what.first, what.second, where});
-  for (Table* table : {&cost, &recorded, &skipped})
-    if (!table->rows.empty()) report.tables.push_back(std::move(*table));
-  return {};
-}
-
 }  // namespace
 
 Expected<Report> runFeatures(Bench& bench) {
@@ -298,7 +189,7 @@ Expected<Report> runFeatures(Bench& bench) {
   bench.plan(chosen.size() * bench.options().repeat + scenes.size());
   Report report;
   if (auto done = costs(bench, chosen, report); !done) return done.error();
-  if (auto done = passes(bench, scenes, report); !done) return done.error();
+  if (auto done = listPasses(bench, scenes, report); !done) return done.error();
   return report;
 }
 
