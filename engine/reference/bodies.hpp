@@ -1,6 +1,7 @@
 #pragma once
 // Rigid bodies of the reference: prediction, contacts with walls and other solids, and what the fluid's solve gives them. The
 // equations are in docs/notes/bodies.md.
+#include <cmath>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -16,6 +17,7 @@
 namespace rill::reference {
 
 inline glm::dvec3 vec(const Double3& v) { return {v.x, v.y, v.z}; }
+inline bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline Double3 triple(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 /// Where a body is and how fast it moves, relative to the origin of the positions.
