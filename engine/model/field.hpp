@@ -43,6 +43,7 @@ struct Info {
   std::string_view since = {};                   ///< version that a scene must ask for to use the key; empty: any
   std::string_view parts = "[x, y, z]";          ///< of a vector of three, as messages show them
   std::string_view unset = "auto";               ///< value that leaves an optional number empty; "": leaving out the key alone does
+  bool namesFluid = false;                       ///< a text that names one of fluids, so that "" is refused where the key is given
 };
 
 /// A key and the member of Owner that it sets. The type of the member selects how the value is read.

@@ -112,7 +112,8 @@ struct Table<Fill> {
             &Fill::jitter},
       Field{Info{.key = "fluid",
                  .help = "name of one of fluids; without it, the first, or that of each particle of a file (property uchar fluid)",
-                 .since = "0.2"},
+                 .since = "0.2",
+                 .namesFluid = true},
             &Fill::fluid}};
 };
 

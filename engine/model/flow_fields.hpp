@@ -62,7 +62,7 @@ struct Table<Emitter> {
                              &Emitter::mouth),
       Field{Info{.key = "flow", .unit = "m^3/s", .range = above(0), .help = "volume per time"}, &Emitter::flow},
       Field{Info{.key = "speed", .unit = "m/s", .range = above(0), .help = "speed in the mouth: flow over its area"}, &Emitter::speed},
-      Field{Info{.key = "fluid", .help = "name of one of fluids; without it, the first"}, &Emitter::fluid},
+      Field{Info{.key = "fluid", .help = "name of one of fluids; without it, the first", .namesFluid = true}, &Emitter::fluid},
       Field{Info{.key = "from", .unit = "s", .range = atLeast(0), .help = "time of its start"}, &Emitter::from},
       Field{Info{.key = "until",
                  .unit = "s",
@@ -108,7 +108,7 @@ struct Table<Inflow> {
             &Inflow::level},
       Field{Info{.key = "flow", .unit = "m^3/s", .range = above(0), .help = "volume per time"}, &Inflow::flow},
       Field{Info{.key = "speed", .unit = "m/s", .range = above(0), .help = "mean speed: flow over width and level"}, &Inflow::speed},
-      Field{Info{.key = "fluid", .help = "name of one of fluids; without it, the first"}, &Inflow::fluid}};
+      Field{Info{.key = "fluid", .help = "name of one of fluids; without it, the first", .namesFluid = true}, &Inflow::fluid}};
 };
 
 template <>

@@ -15,15 +15,19 @@ CheckResult fittingMass(double density, double spacing, std::vector<std::string>
                std::move(keys)};
 }
 
+std::vector<std::string_view> fluidNames(const Scene& scene) {
+  std::vector<std::string_view> names;
+  for (const FluidMaterial& fluid : scene.fluids) names.push_back(fluid.name);
+  return names;
+}
+
 /// `path`: of the object whose key `fluid` has the name.
 CheckResult knownFluid(const Scene& scene, const std::string& name, const std::string& path) {
   if (name.empty()) return {};
   const std::string key = memberPath(path, "fluid");
   if (scene.fluids.empty())
     return Fault{"found " + inQuotes(name) + ", but the scene has no \"fluids\"; expected a fluid of that name there, or no key", {key}};
-  std::vector<std::string_view> names;
-  for (const FluidMaterial& fluid : scene.fluids) names.push_back(fluid.name);
-  return knownName(name, names, "fluid", "a fluid", key);
+  return knownName(name, fluidNames(scene), "fluid", "a fluid", key);
 }
 
 CheckResult fewDiffuse(const std::vector<FluidMaterial>& fluids) {
@@ -40,8 +44,7 @@ CheckResult fewDiffuse(const std::vector<FluidMaterial>& fluids) {
 CheckResult checkInterfaces(const Scene& scene) {
   if (scene.interfaces.empty()) return {};
   if (scene.fluids.empty()) return Fault{"the scene has no \"fluids\"; expected two or more there, or no interfaces", {"interfaces"}};
-  std::vector<std::string_view> names;
-  for (const FluidMaterial& fluid : scene.fluids) names.push_back(fluid.name);
+  const std::vector<std::string_view> names = fluidNames(scene);
   std::map<std::pair<std::string, std::string>, size_t> seen;
   for (size_t i = 0; i < scene.interfaces.size(); ++i) {
     const auto& [one, other] = scene.interfaces[i].between;
@@ -66,6 +69,11 @@ CheckResult checkRules(const FluidSettings& fluid) {
 }
 
 CheckResult checkRules(const std::vector<FluidMaterial>& fluids) { return uniqueNames(fluids, "fluids", true); }
+
+Fault emptyFluidName(const Scene& scene) {
+  return {"found \"\"" + (scene.fluids.empty() ? ", but the scene has no \"fluids\"; expected no key"
+                                               : ", expected one of " + quotedList(fluidNames(scene)) + ", or no key")};
+}
 
 CheckResult checkFluids(const Scene& scene) {
   if (CheckResult fault = fewDiffuse(scene.fluids)) return fault;

@@ -59,6 +59,8 @@ CheckResult checkRules(const std::vector<FluidMaterial>& fluids);
 CheckResult checkRules(const Scene& scene);
 /// Of the fluids' masses, how many diffuse, their interfaces, and of the names of fluids in fills, emitters and the inflow.
 CheckResult checkFluids(const Scene& scene);
+/// Of a key that names a fluid and is given, but empty. In a Scene an empty name is that of no key.
+Fault emptyFluidName(const Scene& scene);
 /// Adds the names of emitters and drains to `names`; a fault if two of them are the same.
 CheckResult collectFlowNames(const Scene& scene, std::vector<std::string_view>& names);
 template <class T>

@@ -1,6 +1,7 @@
 #include "scene/reader.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "rill/version.hpp"
 #include "scene/mesh_file.hpp"
@@ -8,22 +9,37 @@
 namespace rill {
 namespace {
 
-/// The first dotted path in the scene whose last key is `key`, or an empty one.
+/// Whether a key of type T may have the value, by its kind: an object, a list or anything else.
+template <class T>
+bool mayHold(const Json& value) {
+  if constexpr (model::kIsList<T>) return value.is_array();
+  return value.is_object() == !std::is_void_v<typename model::Inner<T>::Type>;
+}
+
+/// A place in a scene where a key could have been meant.
+struct KeyPlace {
+  std::string path;  ///< dotted; empty: there is none
+  size_t depth = std::numeric_limits<size_t>::max();
+  bool fits = false;  ///< the value that was given
+};
+
+/// Finds the outermost place of `key` in Owner, which is at `path`; the first of several.
 template <class Owner>
-std::string pathOfKey(std::string_view key, const std::string& path) {
-  std::string found;
+void findKey(std::string_view key, const Json& value, const std::string& path, size_t depth, KeyPlace& found) {
   model::forEachField<Owner>([&](const auto& field) {
     using Value = typename std::remove_cvref_t<decltype(field)>::Value;
     using Inner = typename model::Inner<Value>::Type;
-    if (!found.empty()) return;
     const std::string here = memberPath(path, field.info.key);
-    if (field.info.key == key) {
-      found = here;
-    } else if constexpr (!std::is_void_v<Inner>) {
-      found = pathOfKey<Inner>(key, model::kIsList<Value> ? here + "[]" : here);
-    }
+    if (field.info.key == key && depth < found.depth) found = {here, depth, mayHold<Value>(value)};
+    if constexpr (!std::is_void_v<Inner>) findKey<Inner>(key, value, model::kIsList<Value> ? here + "[]" : here, depth + 1, found);
   });
-  return found;
+}
+
+/// The path of another place that a key and its value may be meant for, or an empty one.
+std::string otherPlace(std::string_view key, const Json& value) {
+  KeyPlace found;
+  findKey<Scene>(key, value, "", 0, found);
+  return found.fits ? found.path : "";
 }
 
 /// The numbers of "MAJOR.MINOR[.PATCH]", each clamped to a billion; empty for other text.
@@ -117,10 +133,10 @@ bool Reader::allowed(const std::string& path, const model::Info& info) {
   return fail(path, "the scene says \"rill\": " + inQuotes(version_) + "; the key needs \"rill\": " + inQuotes(info.since));
 }
 
-bool Reader::unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys) {
+bool Reader::unknownKey(const std::string& path, const std::string& key, const Json& value, const std::vector<std::string_view>& keys) {
   std::string text = "unknown key; ";
   const std::string_view suggestion = nearestWord(key, keys);
-  const std::string other = suggestion.empty() ? pathOfKey<Scene>(key, "") : std::string();
+  const std::string other = suggestion.empty() ? otherPlace(key, value) : std::string();
   if (!suggestion.empty()) {
     text += "did you mean " + inQuotes(suggestion) + "?";
   } else if (!other.empty()) {

@@ -33,7 +33,7 @@ class Reader {
   bool object(const Json& json, const std::string& path, Owner& owner) {
     if (!json.is_object()) return fail(path, foundText(json) + ", expected an object");
     for (const auto& item : json.items()) {
-      if (!known<Owner>(item.key())) return unknownKey(path, item.key(), model::keysOf<Owner>());
+      if (!known<Owner>(item.key())) return unknownKey(path, item.key(), item.value(), model::keysOf<Owner>());
     }
     bool ok = true;
     model::forEachField<Owner>([&](const auto& field) {
@@ -45,6 +45,8 @@ class Reader {
     if constexpr (std::is_same_v<Owner, MeshShape>) ok = ok && loadMesh(path, owner, owner.two_sided);
     if constexpr (std::is_same_v<Owner, MeshMouth>) ok = ok && loadMesh(path, owner, true);
     for (const auto& keys : model::choicesOf<Owner>()) ok = ok && exactlyOne(json, path, keys);
+    if constexpr (std::is_same_v<Owner, Scene>)
+      if (ok && !emptyFluid_.empty()) return accept(emptyFluid_, model::emptyFluidName(owner));
     return ok && accept(path, model::checkRules(owner));
   }
 
@@ -62,7 +64,7 @@ class Reader {
     return true;
   }
   bool readMeshOf(const std::string& path, const MeshShape& shape, std::shared_ptr<const Mesh>& out);
-  bool unknownKey(const std::string& path, const std::string& key, const std::vector<std::string_view>& keys);
+  bool unknownKey(const std::string& path, const std::string& key, const Json& value, const std::vector<std::string_view>& keys);
   /// Whether the scene's version has the key.
   bool allowed(const std::string& path, const model::Info& info);
   bool exactlyOne(const Json& json, const std::string& path, std::span<const std::string_view> keys);
@@ -157,6 +159,7 @@ class Reader {
   std::filesystem::path folder_;
   std::string version_ = "0";                                                                    // as the scene gives it
   std::map<std::tuple<std::string, double, UpAxis, bool>, std::shared_ptr<const Mesh>> meshes_;  // by file, scale, up, two_sided
+  std::string emptyFluid_;  // path of the first key that gives a fluid's name as ""
   std::string message_;
 };
 

@@ -104,7 +104,11 @@ bool Reader::value(const Json& json, const std::string& path, const model::Info&
 }
 
 bool Reader::value(const Json& json, const std::string& path, const model::Info& info, std::string& out) {
-  if (info.words.empty()) return text(json, path, out);
+  if (info.words.empty()) {
+    if (!text(json, path, out)) return false;
+    if (info.namesFluid && out.empty() && emptyFluid_.empty()) emptyFluid_ = path;
+    return true;
+  }
   size_t index = 0;
   if (!word(json, path, info, index)) return false;
   out = std::string(info.words[index]);

@@ -77,7 +77,7 @@ OrderedJson typeSchema(const model::Info& info) {
     return {{"enum", info.words}};
   } else {
     OrderedJson schema{{"type", "string"}};
-    if (info.required || std::is_same_v<T, std::filesystem::path>) schema["minLength"] = 1;
+    if (info.required || info.namesFluid || std::is_same_v<T, std::filesystem::path>) schema["minLength"] = 1;
     return schema;
   }
 }

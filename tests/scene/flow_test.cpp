@@ -132,7 +132,7 @@ TEST(FlowScene, RejectsDrainsNamingTheKey) {
       {drain(R"("box": {"max": [1, 0, 1]})"), "drains[0].box.max[1]: max is 0 and min is 0 along y; expected min below max on every axis"},
       {drain(R"("sphere": {"radius": 0})"), "drains[0].sphere.radius: 0 is out of range; expected a number above 0 (m)"},
       {drain(R"("box": {}, "from": 3, "until": 1)"), "drains[0].until: found 1 s, expected a time later than from, 3 s"},
-      {drain(R"("box": {}, "flow": 1)"), "drains[0].flow: unknown key; did you mean \"domain.inflow.flow\"?"},
+      {drain(R"("box": {}, "flow": 1)"), "drains[0].flow: unknown key; did you mean \"emitters[].flow\"?"},
       {list("drains", R"({"box": {}})", 257), "drains: found 257 entries, expected at most 256"},
   });
   EXPECT_EQ(parseError(list("drains", R"({"box": {}})", 256)), "accepted");

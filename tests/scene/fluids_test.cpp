@@ -132,6 +132,29 @@ TEST(FluidsScene, RejectsUnknownFluids) {
   });
 }
 
+TEST(FluidsScene, RejectsEmptyFluidNames) {
+  const std::string expected = "found \"\", expected one of \"water\", \"oil\", or no key";
+  expectRefusals({
+      {fluidScene(kTwoFluids + R"(, "fill": [{"box": {}, "fluid": "oil"}, {"box": {}, "fluid": ""}])"), "fill[1].fluid: " + expected},
+      {fluidScene(kTwoFluids + R"(, "emitters": [{"disc": {}, "flow": 1, "fluid": ""}])"), "emitters[0].fluid: " + expected},
+      {fluidScene(kTwoFluids + R"(, "domain": {"inflow": {"level": 0.5, "speed": 1, "fluid": ""}})"), "domain.inflow.fluid: " + expected},
+      {fluidScene(R"("fill": [{"box": {}, "fluid": ""}])"), "fill[0].fluid: found \"\", but the scene has no \"fluids\"; expected no key"},
+  });
+  EXPECT_EQ(parseError(fluidScene(kTwoFluids + R"(, "fill": [{"box": {}}])"), {{"fill[0].fluid", ""}}), "--set fill[0].fluid: " + expected);
+}
+
+// `fluid` is a key elsewhere, of another kind: drains take any fluid, and probes read any.
+TEST(FluidsScene, SuggestsNoKeyOfAnotherKindForFluid) {
+  expectRefusals({
+      {fluidScene(kTwoFluids + R"(, "drains": [{"box": {}, "fluid": "oil"}])"),
+       "drains[0].fluid: unknown key; expected one of \"name\", \"box\", \"sphere\", \"from\", \"until\""},
+      {fluidScene(kTwoFluids + R"(, "probes": [{"name": "p", "level": [0, 0], "fluid": "oil"}])"),
+       "probes[0].fluid: unknown key; expected one of \"name\", \"level\", \"front\", \"load\", \"pose\", \"pressure\", \"flow\""},
+      {fluidScene(R"("solver": {"fluid": {"spacing": 0.1}})"),
+       "solver.fluid: unknown key; did you mean \"fluid\", at the top of the scene?"},
+  });
+}
+
 TEST(FluidsScene, KeysNeedVersion02) {
   const std::string needs = ": the scene says \"rill\": \"0.1\"; the key needs \"rill\": \"0.2\"";
   EXPECT_EQ(parseError(with(kTwoFluids)), "dam.json: fluids" + needs);
