@@ -100,113 +100,157 @@ Expected<offline::PlayedFrame> readFrame(const FrameFile& file, const Scene& sce
   return frame;
 }
 
+class Playback {
+ public:
+  explicit Playback(const Options& options) : options_(options), withoutVelocities_(options.quiet) {}
+
+  /// Reads the scene, finds the files and opens what is written. Nothing is written before all of it is possible.
+  Expected<void> prepare() {
+    const auto found = apps::SceneFolders::standard().find(options_.scene);
+    if (!found) return found.error();
+    auto scene = loadScene(*found, options_.overrides);
+    if (!scene) return scene.error();
+    auto files = filesIn(*options_.play, *scene, options_.frames, options_.quiet);
+    if (!files) return files.error();
+    files_ = *std::move(files);
+    const bool byName = fs::path(options_.scene) != *found;
+    const fs::path out = options_.out ? *options_.out : fs::path("out") / (byName ? fs::path(options_.scene) : fs::path(scene->name));
+    if (auto places = checkPlaces(out); !places) return places;
+
+    auto player = offline::Player::open(*std::move(scene), settings());
+    if (!player) return player.error();
+    player_.emplace(*std::move(player));
+    if (auto ready = player_->prepareRender(options_.view, options_.width, options_.height); !ready) return ready;
+    return openOutputs(out);
+  }
+
+  /// Draws all frames. Returns the exit code.
+  int run() {
+    apps::Progress progress(options_.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal());
+    const auto count = static_cast<uint32_t>(files_.size());
+    if (!options_.quiet)
+      message(player_->scene().name + ": " + grouped(count) + (count == 1 ? " frame" : " frames") + " of " +
+              inQuotes(options_.play->string()) + ", " + player_->device().name);
+    const auto begin = std::chrono::steady_clock::now();
+    uint32_t done = 0;
+    int code = apps::kDone;
+    for (; done < count && !apps::signalReceived(); ++done) {
+      if (auto drawn = draw(done); !drawn) {
+        progress.clear();
+        message(drawn.error().message);
+        code = drawn.error().kind == ErrorKind::BadInput ? apps::kBadInput : apps::kFailed;
+        break;
+      }
+      const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      progress.show({"frame", done + 1, count, apps::printable(files_[done].particles.filename().string()), spent});
+    }
+    progress.clear();
+    if (auto finished = finish(); !finished) code = apps::kFailed;
+    if (!options_.quiet) summarize(code == apps::kDone ? done : 0);
+    if (code != apps::kDone) return code;
+    const int signal = apps::signalReceived();
+    return signal && done < count ? 128 + signal : apps::kDone;
+  }
+
+ private:
+  Expected<void> checkPlaces(const fs::path& out) const {
+    std::error_code ignored;
+    if (options_.images && fs::equivalent(out, *options_.play, ignored))
+      return Error{ErrorKind::BadInput, "--out: " + inQuotes(out.string()) + " is the folder that --play reads; expected another folder"};
+    if (options_.images)
+      if (auto place = apps::checkFolderPlace("--out", out); !place) return place;
+    if (options_.graph)
+      if (auto place = apps::checkFilePlace("--graph", *options_.graph); !place) return place;
+    return options_.video ? Video::check(*options_.video) : Expected<void>();
+  }
+
+  offline::Options settings() const {
+    offline::Options settings;
+    settings.device = options_.device.name;
+    settings.deviceOrigin = options_.device.origin;
+    settings.reads = options_.reads;
+    settings.pipelineCache = apps::pipelineCacheFolder();
+    settings.orbit_degPerS = options_.orbit_degPerS;
+    settings.exposure_stops = options_.exposure_stops;
+    settings.film = options_.film.film(options_.fps);
+    return settings;
+  }
+
+  Expected<void> openOutputs(const fs::path& out) {
+    if (options_.images) {
+      auto prepared = OutputFolder::prepare(out, false);
+      if (!prepared) return prepared.error();
+      folder_.emplace(*std::move(prepared));
+    }
+    if (options_.graph && !apps::isSpecialFile(*options_.graph) && options_.graph->has_parent_path())
+      if (auto made = apps::makeFolder("--graph", options_.graph->parent_path()); !made) return made;
+    if (!options_.video) return {};
+    auto started = Video::start(*options_.video, options_.width, options_.height, options_.fps);
+    if (!started) return started.error();
+    video_.emplace(*std::move(started));
+    return {};
+  }
+
+  Expected<void> draw(uint32_t k) {
+    auto read = readFrame(files_[k], player_->scene(), options_.film.shutter_deg > 0 ? &withoutVelocities_ : nullptr);
+    if (!read) return read.error();
+    read->time_s = k / options_.fps;
+    if (auto shown = player_->show(*read); !shown) return shown;
+    if (options_.exr) {
+      auto image = player_->renderLinear(options_.width, options_.height);
+      if (!image) return image.error();
+      boundHits_ += player_->boundHits();
+      if (auto written = apps::writeExr(folder_->frame(k, "exr"), *image); !written || !video_) return written;
+    }
+    auto image = player_->render(options_.view, options_.width, options_.height);
+    if (!image) return image.error();
+    boundHits_ += player_->boundHits();
+    if (folder_ && !options_.exr)
+      if (auto written = apps::writePng(folder_->frame(k, "png"), *image); !written) return written;
+    return video_ ? video_->add(*image) : Expected<void>();
+  }
+
+  /// After a failure, too: the video of the frames so far is complete. Says what fails.
+  Expected<void> finish() {
+    Expected<void> result;
+    const auto keep = [&](Expected<void> step) {
+      if (step) return;
+      message(step.error().message);
+      result = std::move(step);
+    };
+    if (video_) keep(video_->finish());
+    if (options_.graph) keep(apps::writeFile(*options_.graph, player_->pictureDot()));
+    return result;
+  }
+
+  /// Where the frames and the video are. `frames`: written, of a run without an error.
+  void summarize(uint32_t frames) const {
+    const char* kind = options_.exr ? "exr" : "png";
+    if (folder_ && frames > 0)
+      message("frames: " + folder_->frame(0, kind).string() +
+              (frames > 1 ? " to " + folder_->frame(frames - 1, kind).filename().string() : ""));
+    if (video_ && video_->finished()) message("video: " + options_.video->string());
+    if (boundHits_ > 0) message(boundHitsWarning(boundHits_));
+  }
+
+  const Options& options_;
+  std::vector<FrameFile> files_;
+  std::optional<offline::Player> player_;
+  std::optional<OutputFolder> folder_;
+  std::optional<Video> video_;
+  uint64_t boundHits_ = 0;
+  bool withoutVelocities_;  ///< the warning of a file without velocities was printed, or is not wanted
+};
+
 }  // namespace
 
 int runPlayback(const Options& options) {
-  const auto refuse = [](const Error& error) {
-    message(error.message);
-    return apps::exitCodeBeforeRun(error);
-  };
-  const auto found = apps::SceneFolders::standard().find(options.scene);
-  if (!found) return refuse(found.error());
-  auto scene = loadScene(*found, options.overrides);
-  if (!scene) return refuse(scene.error());
-  auto files = filesIn(*options.play, *scene, options.frames, options.quiet);
-  if (!files) return refuse(files.error());
-  const bool byName = fs::path(options.scene) != *found;
-  const fs::path out = options.out ? *options.out : fs::path("out") / (byName ? fs::path(options.scene) : fs::path(scene->name));
-  std::error_code ignored;
-  if (options.images && fs::equivalent(out, *options.play, ignored))
-    return refuse({ErrorKind::BadInput, "--out: " + inQuotes(out.string()) + " is the folder that --play reads; expected another folder"});
-  if (options.images)
-    if (auto place = apps::checkFolderPlace("--out", out); !place) return refuse(place.error());
-  if (options.graph)
-    if (auto place = apps::checkFilePlace("--graph", *options.graph); !place) return refuse(place.error());
-  if (options.video)
-    if (auto valid = Video::check(*options.video); !valid) return refuse(valid.error());
-
-  offline::Options settings;
-  settings.device = options.device.name;
-  settings.deviceOrigin = options.device.origin;
-  settings.reads = options.reads;
-  settings.pipelineCache = apps::pipelineCacheFolder();
-  settings.orbit_degPerS = options.orbit_degPerS;
-  settings.exposure_stops = options.exposure_stops;
-  settings.film = options.film.film(options.fps);
-  auto player = offline::Player::open(*std::move(scene), settings);
-  if (!player) return refuse(player.error());
-  if (auto ready = player->prepareRender(options.view, options.width, options.height); !ready) return refuse(ready.error());
-  std::optional<OutputFolder> folder;
-  if (options.images) {
-    auto prepared = OutputFolder::prepare(out, false);
-    if (!prepared) return refuse(prepared.error());
-    folder.emplace(*std::move(prepared));
+  Playback playback(options);
+  if (auto ready = playback.prepare(); !ready) {
+    message(ready.error().message);
+    return apps::exitCodeBeforeRun(ready.error());
   }
-  if (options.graph && !apps::isSpecialFile(*options.graph) && options.graph->has_parent_path())
-    if (auto made = apps::makeFolder("--graph", options.graph->parent_path()); !made) return refuse(made.error());
-  std::optional<Video> video;
-  if (options.video) {
-    auto started = Video::start(*options.video, options.width, options.height, options.fps);
-    if (!started) return refuse(started.error());
-    video.emplace(*std::move(started));
-  }
-  apps::Progress progress(options.quiet ? apps::Progress::Style::Quiet : apps::Progress::styleForTerminal());
-  const auto count = static_cast<uint32_t>(files->size());
-  if (!options.quiet)
-    message(player->scene().name + ": " + grouped(count) + (count == 1 ? " frame" : " frames") + " of " + inQuotes(options.play->string()) +
-            ", " + player->device().name);
-  const auto begin = std::chrono::steady_clock::now();
-  uint64_t hits = 0;
-  bool warned = options.quiet;
-  const auto frame = [&](uint32_t k) -> Expected<void> {
-    auto read = readFrame((*files)[k], player->scene(), options.film.shutter_deg > 0 ? &warned : nullptr);
-    if (!read) return read.error();
-    read->time_s = k / options.fps;
-    if (auto shown = player->show(*read); !shown) return shown;
-    if (options.exr) {
-      auto image = player->renderLinear(options.width, options.height);
-      if (!image) return image.error();
-      hits += player->boundHits();
-      if (auto written = apps::writeExr(folder->frame(k, "exr"), *image); !written || !video) return written;
-    }
-    auto image = player->render(options.view, options.width, options.height);
-    if (!image) return image.error();
-    hits += player->boundHits();
-    if (folder && !options.exr)
-      if (auto written = apps::writePng(folder->frame(k, "png"), *image); !written) return written;
-    return video ? video->add(*image) : Expected<void>();
-  };
-  uint32_t done = 0;
-  int code = apps::kDone;
-  for (; done < count && !apps::signalReceived(); ++done) {
-    if (auto drawn = frame(done); !drawn) {
-      progress.clear();
-      message(drawn.error().message);
-      code = drawn.error().kind == ErrorKind::BadInput ? apps::kBadInput : apps::kFailed;
-      break;
-    }
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    progress.show({"frame", done + 1, count, apps::printable((*files)[done].particles.filename().string()), spent});
-  }
-  progress.clear();
-  if (video)  // after a failure, too: the video of the frames so far is complete
-    if (auto finished = video->finish(); !finished) {
-      message(finished.error().message);
-      code = apps::kFailed;
-    }
-  if (options.graph)
-    if (auto written = apps::writeFile(*options.graph, player->pictureDot()); !written) {
-      message(written.error().message);
-      code = apps::kFailed;
-    }
-  const char* kind = options.exr ? "exr" : "png";
-  if (!options.quiet && folder && done > 0 && code == apps::kDone)
-    message("frames: " + folder->frame(0, kind).string() + (done > 1 ? " to " + folder->frame(done - 1, kind).filename().string() : ""));
-  if (!options.quiet && video && video->finished()) message("video: " + options.video->string());
-  if (hits > 0 && !options.quiet) message(boundHitsWarning(hits));
-  if (code != apps::kDone) return code;
-  const int signal = apps::signalReceived();
-  return signal && done < count ? 128 + signal : apps::kDone;
+  return playback.run();
 }
 
 }  // namespace rill::capture

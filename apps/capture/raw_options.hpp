@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "capture/options.hpp"
+
 namespace rill::capture {
 
 /// Options as text: numbers are parsed here, so that messages do not depend on the version of CLI11.
@@ -16,6 +18,9 @@ struct RawOptions {
 };
 
 void declareOptions(CLI::App& app, RawOptions& raw);
+
+/// Checks the options of `app`, which parsed `raw`. BadInput names the option, what was found and what was expected.
+Expected<Options> readOptions(const RawOptions& raw, const CLI::App& app);
 
 /// Expands "--set a=1 b=2" to "--set a=1 --set b=2": an argument of the same form is another value of the list.
 std::vector<std::string> expandLists(int count, const char* const* arguments);
