@@ -55,8 +55,7 @@ Kernel FluidImpl::bind(Graph& graph, Pass& pass, const FluidPassRow& row, const 
       version = graph.create(rowOf(array).label, {arrayBytes(array, arrayShape(setup))});
     bound[k].buffer = &version;
     // Passes over neighbors only count in the sums: nothing has to wait between two of them.
-    bound[k].atomic =
-        array == FluidArray::Sums && (row.extent == Extent::Gather || row.extent == Extent::NearGather) && !runsControl(row.id, setup);
+    bound[k].atomic = array == FluidArray::Sums && gathers(row.extent) && !runsControl(row.id, setup);
   }
   return bindShader(pass, variant.pipeline, std::span(bound).first(variant.arrays.size()));
 }

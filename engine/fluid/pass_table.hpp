@@ -95,6 +95,14 @@ enum class FluidPass : uint8_t {
 };
 constexpr size_t kFluidPasses = static_cast<size_t>(FluidPass::kCount);
 
+/// The part of an advance that a pass belongs to. Those of a measurement are in no advance without figures.
+enum class PassSection : uint8_t { Start, Rebuild, Substep, Figures };
+constexpr PassSection sectionOf(FluidPass pass) {
+  if (pass < FluidPass::Emit) return PassSection::Start;
+  if (pass < FluidPass::MoveSolids) return PassSection::Rebuild;
+  return pass < FluidPass::MeasureDisplaced ? PassSection::Substep : PassSection::Figures;
+}
+
 /// What starts a dispatch; shaders/shared/dispatch_commands.h says when.
 enum class Start : uint8_t {
   Always = kStartAlways,
@@ -132,6 +140,9 @@ enum class Extent : uint8_t {
   Births,          ///< particles that emitters may add at a rebuild
   NearGather       ///< the same over their neighbors; where passes are merged (on GPUs) in the variant that can walk the grid alone
 };
+
+/// Whether a pass sums over neighbors.
+constexpr bool gathers(Extent extent) { return extent == Extent::Gather || extent == Extent::NearGather; }
 
 /// When a pass exists, and what the report of skipped passes says where it does not.
 struct PassCondition {

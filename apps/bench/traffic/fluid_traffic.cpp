@@ -21,11 +21,10 @@ const FluidPassRow* rowNamed(std::string_view name) {
   return row == fluidPassTable().end() ? nullptr : &*row;
 }
 
-/// The passes of the sort have no row: they belong to the rebuild that they are in.
+/// Passes without a row, which are those of the sort, belong to the rebuild that they are in.
 Section sectionOf(const FluidPassRow* row, Section last) {
-  if (!row) return last == Section::Start ? Section::Rebuild : last;
-  if (row->id < FluidPass::Keys) return Section::Start;
-  return row->id <= FluidPass::FinishRebuild ? Section::Rebuild : Section::Substep;
+  if (row) return rill::sectionOf(row->id);
+  return last == Section::Start ? Section::Rebuild : last;
 }
 
 const ArrayRow* arrayLabeled(std::string_view label) {
@@ -42,11 +41,18 @@ uint64_t elementsPerParticle(const ArrayRow& row, ArrayShape shape) {
 
 /// Particles whose elements of an array a dispatch over `covered` ones touches, each counted once. Arrays that are not per particle, and
 /// those of the sort, whose invocations take several keys, count as a whole.
-double touched(const ArrayRow& row, double covered, const FluidCounts& counts) {
+double touched(const FluidPassRow& pass, const ArrayRow& row, double covered, const FluidCounts& counts) {
+  if (pass.id == FluidPass::Reorder) return covered;  // clears what is of solids
   switch (row.id) {
     case FluidArray::NearDisplaced:
+      return std::min(covered, counts.nearSolids + counts.nearMouths);
     case FluidArray::NearTangential:  // the list head says which particles are near: only those read the samples (solid_samples.glsl)
+    case FluidArray::NearExcess:
+    case FluidArray::NearStiffness:
+    case FluidArray::NearMultipliers:
     case FluidArray::NearSolids:
+    case FluidArray::Hold:
+    case FluidArray::SolidPlane:
       return std::min(covered, counts.nearSolids);
     case FluidArray::NearMouths:
       return std::min(covered, counts.nearMouths);
@@ -66,8 +72,8 @@ void addBytes(PassTraffic& to, const FluidPassRow* pass, const TracedDispatch& d
       const double group = std::max({binding.access.readBytes, binding.access.writeBytes, array->stride});
       bytes = covered * counts.entries * array->stride + covered * (group - array->stride) / 2;
     } else if (const uint64_t elements = pass && array ? elementsPerParticle(*array, shape) : 0; elements > 0) {
-      bytes = touched(*array, covered, counts) * double(elements) * array->stride;
-      if (pass->extent == Extent::Gather && binding.access.readsInLoop) to.gatheredBytes += covered * counts.entries * array->stride;
+      bytes = touched(*pass, *array, covered, counts) * double(elements) * array->stride;
+      if (gathers(pass->extent) && binding.access.readsInLoop) to.gatheredBytes += covered * counts.entries * array->stride;
     }
     if (binding.access.reads) to.readBytes += bytes;
     if (binding.access.writes) to.writtenBytes += bytes;
@@ -117,7 +123,7 @@ void leaveOutIdle(std::vector<PassTraffic>& passes, uint32_t iterations) {
 }  // namespace
 
 std::string_view sectionName(Section section) {
-  constexpr std::string_view kNames[] = {"start", "rebuild", "substep"};
+  constexpr std::string_view kNames[] = {"start", "rebuild", "substep", "figures"};
   return kNames[size_t(section)];
 }
 
@@ -144,6 +150,26 @@ DeviceWork FluidTraffic::advance() const {
   DeviceWork work;
   for (const PassTraffic& pass : passes) work = work + DeviceWork{pass.bytes(), double(pass.recorded), double(pass.barriers)};
   return work;
+}
+
+std::vector<Override> allPasses() {
+  return {
+      {"rill", "\"0.2\""},
+      {"fluids", R"([{"name": "mud", "diffusion": 1e-2}, {"name": "oil", "density": 800, "viscosity": 0, "yield_stress": 0}])"},
+      {"interfaces", R"([{"between": ["mud", "oil"], "tension": 0.02}])"},
+      {"fluid.viscosity", "0.5"},
+      {"fluid.yield_stress", "1"},
+      {"fluid.surface_tension", "0.07"},
+      {"fluid.vorticity", "0.1"},
+      {"fluid.drag", "0.1"},
+      {"solver.iterations", "2"},
+      {"solver.artificial_viscosity", "1"},
+      {"solids[0].slip", "false"},
+      {"solids[0].motion", R"([{"at": 0}, {"at": 3, "translate": [0.1, 0, 0]}])"},
+      {"solids[2]", R"({"name": "float", "sphere": {"center": [0.3, 0.5, 0.3], "radius": 0.08}, "slip": false, "body": {"density": 500}})"},
+      {"emitters", R"([{"disc": {"center": [1.4, 0.7, 0.32], "radius": 0.1, "normal": [0, -1, 0]}, "speed": 1, "fluid": "oil"}])"},
+      {"drains", R"([{"box": {"min": [0, 0, 0], "max": [0.05, 0.05, 0.05]}}])"},
+      {"probes[2]", R"({"name": "pressure", "pressure": [0.2, 0.1, 0.3]})"}};
 }
 
 DeviceWork frameWork(const FluidTraffic& traffic, double particles, double substeps) {

@@ -5,12 +5,13 @@
 
 #include "bench/traffic/cost_model.hpp"
 #include "bench/workbench.hpp"
+#include "fluid/pass_table.hpp"
 #include "rill/fluid.hpp"
 
 namespace rill::bench {
 
 /// The part of an advance that a pass belongs to.
-enum class Section { Start, Rebuild, Substep };
+using Section = PassSection;
 std::string_view sectionName(Section section);
 
 /// Totals over an advance of all passes of one name.
@@ -39,6 +40,9 @@ struct FluidTraffic {
   /// The whole advance, recorded commands that had no effect included.
   DeviceWork advance() const;
 };
+
+/// Changes of the scene box-and-sphere that make it run every pass but those of sleeping fluid.
+std::vector<Override> allPasses();
 
 /// The work of a frame of `substeps` substeps of `particles` particles, by the traffic of another advance of the same scene.
 DeviceWork frameWork(const FluidTraffic& traffic, double particles, double substeps);
