@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "fluid/body_figures.hpp"
@@ -16,6 +17,14 @@ bool read(std::span<const std::byte> bytes, Record& record) {
   if (bytes.size() < sizeof record) return false;
   std::memcpy(&record, bytes.data(), sizeof record);
   return true;
+}
+
+/// Record `k` of an array; none beyond the array's end.
+template <class Record>
+std::optional<Record> recordAt(std::span<const std::byte> array, size_t k) {
+  Record record{};
+  if (!read(array.subspan(std::min(k * sizeof record, array.size())), record)) return {};
+  return record;
 }
 
 SolidLoad loadOf(const SolidLoadRecord& r) {
@@ -34,26 +43,26 @@ SolidLoad loadOf(const SolidLoadRecord& r) {
 
 void FluidImpl::takeBodies(std::span<const std::byte> records) const {
   for (size_t k = 0; k < bodyRecords.size(); ++k) {
-    BodyRecord record{};
-    if (!read(records.subspan(std::min(k * sizeof record, records.size())), record)) return;
-    bodyRecords[k] = record;
-    bodyMotions[k] = motionOf(record, origin);
+    const auto record = recordAt<BodyRecord>(records, k);
+    if (!record) return;
+    bodyRecords[k] = *record;
+    bodyMotions[k] = motionOf(*record, origin);
   }
 }
 
 void FluidImpl::takePressures(std::span<const std::byte> records) const {
   for (size_t k = 0; k < pressures.size(); ++k) {
-    PressureProbeRecord record{};
-    if (!read(records.subspan(std::min(k * sizeof record, records.size())), record)) return;
-    pressures[k] = {.mean = record.mean, .integral = double{record.integralHigh} + record.integralLow, .covered = record.covered != 0};
+    const auto record = recordAt<PressureProbeRecord>(records, k);
+    if (!record) return;
+    pressures[k] = {.mean = record->mean, .integral = double{record->integralHigh} + record->integralLow, .covered = record->covered != 0};
   }
 }
 
 void FluidImpl::takeLoads(std::span<const std::byte> records) const {
   for (size_t k = 0; k < solidLoads.size(); ++k) {
-    SolidLoadRecord record{};
-    if (!read(records.subspan(std::min(k * sizeof record, records.size())), record)) return;
-    solidLoads[k] = loadOf(record);
+    const auto record = recordAt<SolidLoadRecord>(records, k);
+    if (!record) return;
+    solidLoads[k] = loadOf(*record);
   }
 }
 
@@ -65,10 +74,9 @@ void FluidImpl::takeFlows(std::span<const std::byte> flow, std::span<const std::
     reading = {.particles = particles, .volume = particles * volume, .blocked_s = blocked_s};
   };
   for (size_t k = 0; k < emitted.size(); ++k)
-    if (EmitterRecord r{}; read(emitters.subspan(std::min(k * sizeof r, emitters.size())), r))
-      take(emitted[k], r.emitted, double{r.blockedHigh} + r.blockedLow);
+    if (const auto r = recordAt<EmitterRecord>(emitters, k)) take(emitted[k], r->emitted, double{r->blockedHigh} + r->blockedLow);
   for (size_t k = 0; k < drained.size(); ++k)
-    if (DrainRecord r{}; read(drains.subspan(std::min(k * sizeof r, drains.size())), r)) take(drained[k], r.drained, 0);
+    if (const auto r = recordAt<DrainRecord>(drains, k)) take(drained[k], r->drained, 0);
 }
 
 std::vector<FluidPassRuns> FluidImpl::passRuns() const {
@@ -131,18 +139,61 @@ std::vector<FluidFigures> FluidImpl::figuresOfFluids(std::span<const std::byte> 
              .densityErrorMax = all.densityErrorMax}};
   std::vector<FluidFigures> fluids(setup.fluids);
   for (size_t k = 0; k < fluids.size(); ++k) {
-    FluidFigureRecord r{};
-    if (!read(measured.subspan(std::min(k * sizeof r, measured.size())), r)) continue;
-    fluids[k] = {.particles = r.particles,
-                 .ledger = ledgerOf(r.particles + r.inactive, r.inactive),
-                 .densityErrorMean = (r.errorHigh * 4294967296.0 + r.errorLow) * kErrorUnit / std::max(r.particles, 1u),
-                 .densityErrorMax = std::bit_cast<float>(r.errorMax)};
+    const auto r = recordAt<FluidFigureRecord>(measured, k);
+    if (!r) continue;
+    fluids[k] = {.particles = r->particles,
+                 .ledger = ledgerOf(r->particles + r->inactive, r->inactive),
+                 .densityErrorMean = (r->errorHigh * 4294967296.0 + r->errorLow) * kErrorUnit / std::max(r->particles, 1u),
+                 .densityErrorMax = std::bit_cast<float>(r->errorMax)};
     if (!setup.removes) continue;
     FluidLedger& own = fluids[k].ledger;
     own.filled = ledger.filledOf[k], own.inactive = ledger.inactiveOf[k];
     own.emitted = ledger.emittedOf[k], own.drained = ledger.drainedOf[k], own.left = ledger.leftOf[k];
   }
   return fluids;
+}
+
+FluidStats FluidImpl::statsOf(const MeasureResult& result, std::span<const std::byte> fluids, const FluidControl& control,
+                              const FluidSums& sums) const {
+  const MeasurePartial& m = result.sums;
+  const double n = std::max(control.count - m.inactive, 1u), mass = setup.params.particleMass;
+  FluidStats s;
+  s.time_s = progress.time_s;
+  s.particles = setup.removes ? control.count - m.inactive : control.count;
+  s.substeps = control.substeps;
+  s.iterations = control.iterations;
+  s.timeDropped_s = control.timeDropped;
+  s.densityErrorMean = m.compression / n;
+  s.densityErrorP99 = result.compression99;
+  s.densityErrorMax = m.compressionMax;
+  s.densitySignedMedian = result.signedMedian;
+  s.kinetic_J = 0.5 * mass * m.kinetic;
+  const double masses = m.mass > 0 ? m.mass : 1;
+  const Double3 sum = {m.positionX + masses * origin[0], m.positionY + masses * origin[1], m.positionZ + masses * origin[2]};
+  const Double3 gravity = {control.gravityX, control.gravityY, control.gravityZ};
+  const Double3 velocity = {m.velocityX, m.velocityY, m.velocityZ};
+  for (int a = 0; a < 3; ++a) {
+    s.potential_J -= mass * gravity[a] * sum[a];
+    s.momentum[a] = mass * velocity[a];
+    s.centerOfMass[a] = sum[a] / masses;
+  }
+  if (setup.params.sleeps != 0) s.sleeping = control.sleep != kAwake ? control.count : sums.asleep;
+  if (!bodyRecords.empty()) s.bodies = figuresOf(bodyRecords, origin, gravity);
+  s.maxSpeed = m.speedMax;
+  s.nonFinite = sums.nonFinite;
+  s.outside = setup.removes ? m.outside - m.inactive : m.outside;  // inactive ones are about to be removed
+  s.ledger = ledgerOf(control.count, m.inactive);
+  s.fluids = figuresOfFluids(fluids, s);
+  s.emitterBlocked_s = double{ledger.blockedHigh} + ledger.blockedLow;
+  for (const FlowReading& reading : emitted) s.emittersBlocked_s.push_back(reading.blocked_s);
+  s.neighborOverflow = sums.overflow;
+  s.loopBoundHits = sums.boundHits;
+  s.viscosityBoundHits = sums.viscosityBoundHits;
+  s.viscosityCapped = sums.viscosityCapped;
+  s.diffusionBoundHits = sums.diffusionBoundHits;
+  s.listBuilds = control.builds;
+  s.artificialViscosity_Pa_s = setup.artificialViscosity * control.restFraction;
+  return s;
 }
 
 void FluidImpl::poll() const {
@@ -182,46 +233,8 @@ void FluidImpl::poll() const {
     }
     MeasureResult result{};
     if (pending.measured && read(pending.graph.lock()->data(pending.measure), result)) {
-      const MeasurePartial& m = result.sums;
-      const double n = std::max(control.count - m.inactive, 1u), mass = setup.params.particleMass;
-      FluidStats s;
-      s.time_s = progress.time_s;
-      s.particles = setup.removes ? control.count - m.inactive : control.count;
-      s.substeps = control.substeps;
-      s.iterations = control.iterations;
-      s.timeDropped_s = control.timeDropped;
-      s.densityErrorMean = m.compression / n;
-      s.densityErrorP99 = result.compression99;
-      s.densityErrorMax = m.compressionMax;
-      s.densitySignedMedian = result.signedMedian;
-      s.kinetic_J = 0.5 * mass * m.kinetic;
-      const double masses = m.mass > 0 ? m.mass : 1;
-      const Double3 sum = {m.positionX + masses * origin[0], m.positionY + masses * origin[1], m.positionZ + masses * origin[2]};
-      const Double3 gravity = {control.gravityX, control.gravityY, control.gravityZ};
-      const Double3 velocity = {m.velocityX, m.velocityY, m.velocityZ};
-      for (int a = 0; a < 3; ++a) {
-        s.potential_J -= mass * gravity[a] * sum[a];
-        s.momentum[a] = mass * velocity[a];
-        s.centerOfMass[a] = sum[a] / masses;
-      }
-      if (setup.params.sleeps != 0) s.sleeping = control.sleep != kAwake ? control.count : sums.asleep;
-      if (!bodyRecords.empty()) s.bodies = figuresOf(bodyRecords, origin, gravity);
-      s.maxSpeed = m.speedMax;
-      s.nonFinite = sums.nonFinite;
-      s.outside = setup.removes ? m.outside - m.inactive : m.outside;  // inactive ones are about to be removed
-      s.ledger = ledgerOf(control.count, m.inactive);
       const auto fluids = setup.fluids > 1 ? pending.graph.lock()->data(pending.fluidFigures) : std::span<const std::byte>();
-      s.fluids = figuresOfFluids(fluids, s);
-      s.emitterBlocked_s = double{ledger.blockedHigh} + ledger.blockedLow;
-      for (const FlowReading& reading : emitted) s.emittersBlocked_s.push_back(reading.blocked_s);
-      s.neighborOverflow = sums.overflow;
-      s.loopBoundHits = sums.boundHits;
-      s.viscosityBoundHits = sums.viscosityBoundHits;
-      s.viscosityCapped = sums.viscosityCapped;
-      s.diffusionBoundHits = sums.diffusionBoundHits;
-      s.listBuilds = control.builds;
-      s.artificialViscosity_Pa_s = setup.artificialViscosity * control.restFraction;
-      stats = s;
+      stats = statsOf(result, fluids, control, sums);
     }
     if (pending.uploads) staging_.reset();
     pending_.pop_front();

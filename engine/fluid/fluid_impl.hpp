@@ -59,6 +59,9 @@ class FluidImpl {
   FluidState present(Graph& graph) const;
   void poll() const;
   std::vector<FluidPassRuns> passRuns() const;
+  /// The figures of a frame that were measured, by what came back with them. `fluids`: FluidFigureRecords, of several fluids.
+  FluidStats statsOf(const MeasureResult& result, std::span<const std::byte> fluids, const FluidControl& control,
+                     const FluidSums& sums) const;
   std::vector<FluidFigures> figuresOfFluids(std::span<const std::byte> measured, const FluidStats& all) const;
   FluidLedger ledgerOf(uint32_t particles, uint32_t inactive) const;  ///< of a scene in which none come or go: those there are
   void takeBodies(std::span<const std::byte> records) const;          ///< BodyRecords
@@ -123,11 +126,17 @@ class FluidImpl {
   // start_state.cpp
   void stageScene();
   void stageStart(const ParticleSet& particles, bool settle);
-  void stageSnapshot(const FluidSnapshot& snapshot);
   void stageFlows();
-  void resumeFlows(const FluidSnapshot& snapshot);
   void stageParticles(std::vector<Float3> positions, std::vector<Float3> velocities, std::vector<uint8_t> fluids);
   void stageConcentrations(std::vector<Float4> given, const std::vector<uint8_t>& fluids);  ///< `given`: empty: nothing has mixed
+  // resume_state.cpp
+  void stageSnapshot(const FluidSnapshot& s);
+  void resumeDecisions(const FluidSnapshot& s, uint32_t nearMouths);
+  void resumeSolids(const FluidSnapshot& s);
+  void resumePressures(const FluidSnapshot& s);
+  void resumeFlows(const FluidSnapshot& s);
+  void resumeArrays(const FluidSnapshot& s);
+  void resumeNeighbors(const FluidSnapshot& s, bool allNearMouths);
   // host_input.cpp
   void declareUpload(Graph& graph);
   void declareDrive(Graph& graph, const FluidStep& step);

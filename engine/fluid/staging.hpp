@@ -1,12 +1,20 @@
 #pragma once
 // First contents of device buffers on their way there: laid out in upload memory, in buffers of at most 128 MiB each, unless one content is
 // larger.
+#include <cstring>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "gpu/resources.hpp"
 
 namespace rill {
+
+/// Writes the bytes of `values`, which it keeps.
+template <class T>
+std::function<void(std::byte*)> bytesOf(std::vector<T> values) {
+  return [values = std::move(values)](std::byte* to) { std::memcpy(to, values.data(), values.size() * sizeof(T)); };
+}
 
 /// Targets are numbers that the owner gives to its buffers.
 class Staging {
@@ -21,6 +29,11 @@ class Staging {
   void add(size_t target, uint64_t bytes, std::function<void(std::byte*)> write);
   /// `data` outlives make().
   void add(size_t target, const void* data, uint64_t bytes);
+  template <class T>
+  void add(size_t target, std::vector<T> values) {
+    const uint64_t bytes = values.size() * sizeof(T);
+    add(target, bytes, bytesOf(std::move(values)));
+  }
   /// The same bytes as were added for `other`.
   void addSame(size_t target, size_t other);
   void clear(size_t target) { cleared_.push_back(target); }
