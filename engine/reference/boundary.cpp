@@ -182,6 +182,27 @@ glm::dvec3 ReferenceSolver::collide(glm::dvec3 x, std::span<const Pose> solids, 
   return x;
 }
 
+void ReferenceSolver::moveAlongSurface(size_t i, std::span<const Pose> solids, std::span<const Pose> before, const AddReaction& add) {
+  const double pushed = predictionPush_[i] + pushedOut_[i];
+  if (pushed <= 0 || !finite(state.predicted[i])) return;
+  size_t nearest = solids.size();
+  SurfacePoint surface{.distance = std::numeric_limits<double>::infinity()};
+  for (size_t n = 0; n < solids.size(); ++n) {
+    if (bodies_.isBody(n)) continue;
+    const SurfacePoint found = surfaceOf(n, solids[n], state.predicted[i]);
+    if (found.distance >= surface.distance) continue;
+    surface = found;
+    nearest = n;
+  }
+  if (nearest == solids.size()) return;
+  const SurfacePoint start = surfaceOf(nearest, before[nearest], state.position[i]);
+  if (start.distance > kContactDistance * settings.spacing) return;
+  const glm::dvec3 normal = vec(surface.normal), leaned = vec(start.normal);
+  const glm::dvec3 by = pushed * (leaned - glm::dot(leaned, normal) * normal);
+  add(nearest, by / inverseMass(i), state.predicted[i]);
+  state.predicted[i] = collide(state.predicted[i] + by, {});
+}
+
 /// Velocity after contact with solids, with restitution e and Coulomb friction mu, relative to the velocity of the solid. With the velocity
 /// before the solve, u = v_old + g dt - v_solid, and the contribution of the neighbors' pressure, f = sum_j a_ij (lambda_i + lambda_j) G_ij
 /// / dt:

@@ -20,6 +20,7 @@ void ReferenceSolver::correction(double dt, double push) {
   addContributions(dt, {});  // of the iteration before
   for (size_t i = 0; i < size(); ++i) rejectedBefore_[i] += std::exchange(rejected_[i], glm::dvec3(0));
   gaveWay_.assign(size(), false);
+  pushedOut_.assign(size(), 0);
   for (size_t i = 0; i < size(); ++i) {
     const AddReaction later = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { contributions_.push_back({i, n, by, at}); };
     glm::dvec3 sum(0), apart(0);
@@ -38,6 +39,7 @@ void ReferenceSolver::correction(double dt, double push) {
         const double share = bodies_.share(n, at, glm::normalize(by));
         gaveWay_[i] = gaveWay_[i] || share < kFirmShare;
         rejected_[i] += (1 - share) * by;
+        pushedOut_[i] += glm::length(by);
         add(n, share / inverseMass(i) * by, at);
       });
     } else {
@@ -52,7 +54,7 @@ double ReferenceSolver::keptPush(const glm::dvec3& moved, const glm::dvec3& push
 }
 
 void ReferenceSolver::velocities(double dt) {
-  const std::vector<Pose> solids = poses(time_, dt);
+  const std::vector<Pose> solids = poses(time_, dt), before = poses(time_, 0);
   const double maxGain = dt * (std::clamp(std::max(0.5 * std::max(fastest_, emitterSpeed()), 5 * bodies_.fastest()), settings.minSpeedGain,
                                           settings.maxSpeedGain) +
                                4 * dt * glm::length(settings.gravity));
@@ -66,9 +68,10 @@ void ReferenceSolver::velocities(double dt) {
     kept[i] = gain > maxGain ? maxGain / gain : 1;
     const double removed = 1 - kept[i];
     const glm::dvec3 pushed = wallPosition_[i] - gain_[i] - state.position[i] - planned_[i] - rejectedBefore_[i];
-    const glm::dvec3 before = planned_[i] + keptPush(planned_[i], pushed, maxPush) * pushed;
-    const glm::dvec3 free = (1 - 0.5 * removed) * before + kept[i] * gain_[i];
+    const glm::dvec3 predicted = planned_[i] + keptPush(planned_[i], pushed, maxPush) * pushed;
+    const glm::dvec3 free = (1 - 0.5 * removed) * predicted + kept[i] * gain_[i];
     if (finite(wallPosition_[i])) addSpeed(glm::length(free) / dt);
+    moveAlongSurface(i, solids, before, add);
     const glm::dvec3 out = state.predicted[i] - wallPosition_[i] - rejected_[i];
     glm::dvec3 v = contact(i, (free + (gaveWay_[i] ? 1 : keptPush(free, out, maxPushOut)) * out) / dt, dt, solids, add);
     const double speed = glm::length(v);

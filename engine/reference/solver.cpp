@@ -32,6 +32,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   state.fluid.assign(count, 0);
   lambda_.assign(count, 0);
   lambdaChange_.assign(count, 0);
+  predictionPush_ = pushedOut_ = std::vector<double>(count, 0);
   delta_.assign(count, 0);
   curl_.assign(count, glm::dvec3(0));
   rejected_.assign(count, glm::dvec3(0));
@@ -192,7 +193,11 @@ void ReferenceSolver::predictPositions(double dt, bool atRest) {
     const glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + inverseMass(i) * push;
     planned_[i] = x - state.position[i];
     if (finite(x)) {
-      const AddReaction weighed = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) { pushed(n, by / inverseMass(i), at); };
+      predictionPush_[i] = 0;
+      const AddReaction weighed = [&](size_t n, const glm::dvec3& by, const glm::dvec3& at) {
+        pushed(n, by / inverseMass(i), at);
+        predictionPush_[i] += glm::length(by);
+      };
       state.predicted[i] = collide(x, solids, weighed, atRest);  // the density that a body displaces is enough
     } else {
       deactivate(i);

@@ -170,6 +170,9 @@ class ReferenceSolver {
   /// Is called with a displacement of a particle by a solid, and the point that the reaction acts at.
   using AddReaction = std::function<void(size_t solid, const glm::dvec3& displacement, const glm::dvec3& at)>;
   glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const AddReaction& add = {}, bool withBodies = true) const;
+  /// Of a particle that leans on its nearest solid since the start of the substep: makes pushes along the normal ones along that at the
+  /// start.
+  void moveAlongSurface(size_t i, std::span<const Pose> poses, std::span<const Pose> before, const AddReaction& add);
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses, const AddReaction& add) const;
   void addReactions(size_t i, double multiplier, std::span<const Pose> poses, const AddReaction& add) const;  ///< multiplier times grad B_i
   /// Adds what it is called with times `factor` and the mass of a particle of the densest fluid, reversed.
@@ -247,12 +250,13 @@ class ReferenceSolver {
   std::vector<SolidSample> boundary_;
   std::vector<glm::dvec3> boundaryPlace_;  ///< m, that it is of
   Bodies bodies_;
-  std::vector<Pose> densityPoses_;                ///< that the density is of
-  std::vector<Impulse> impulses_, warmImpulses_;  ///< of the present substep; of the prediction of the next one
-  std::vector<Impulse> applied_;                  ///< of impulses_, what has moved bodies
-  std::vector<glm::dvec3> rejected_;              ///< m, the part of pushes by bodies in the last correction that changes no velocity
-  std::vector<glm::dvec3> rejectedBefore_;        ///< of corrections before it, in the present substep
-  std::vector<bool> gaveWay_;                     ///< whether a body that did pushed the particle in the last correction
+  std::vector<Pose> densityPoses_;                  ///< that the density is of
+  std::vector<Impulse> impulses_, warmImpulses_;    ///< of the present substep; of the prediction of the next one
+  std::vector<Impulse> applied_;                    ///< of impulses_, what has moved bodies
+  std::vector<glm::dvec3> rejected_;                ///< m, the part of pushes by bodies in the last correction that changes no velocity
+  std::vector<glm::dvec3> rejectedBefore_;          ///< of corrections before it, in the present substep
+  std::vector<double> predictionPush_, pushedOut_;  ///< m, what solids pushed the prediction, and after the last correction
+  std::vector<bool> gaveWay_;                       ///< whether a body that did pushed the particle in the last correction
   bool firstIteration_ = true;
   /// A displacement in the last correction, m, before gains are bounded.
   struct Contribution {

@@ -51,7 +51,7 @@ void main() {
     if (control.warmStep <= 0.0) control.warmStep = control.nextStep;
     float fastest = max(control.speed, control.emitterSpeed) + max(control.solidSpeed, control.bodySpeed);
     float nextTravel = control.travel + (fastest + acceleration * control.nextStep) * control.nextStep;
-    if (control.nextPhase != kPhaseInitialPressure && nextTravel > params.travelLimit && control.listState == kListValid)
+    if (control.nextPhase != kPhaseInitialPressure && nextTravel > travelLimit() && control.listState == kListValid)
       control.listState = kListDue;
     bool due = control.emissionWait <= 0.0 || regionsAreDue();
     if (due && control.listState == kListValid) control.listState = kListDue;

@@ -81,6 +81,20 @@ uint nearestSolid(NearSolids near, vec3 x, out vec3 center, out vec3 direction) 
   return nearest;
 }
 
+// What turns pushes by `pushed` m along the normal at x into pushes along that at `start`, where the substep began: pressure acts along that,
+// and what leans on a curved solid would gain speed. See docs/notes/walls-and-solids.md.
+vec3 alongSurface(NearSolids near, vec3 start, vec3 x, float pushed) {
+  vec3 center, normal, local;
+  uint k = nearestSolid(near, x, center, normal);
+  if (k == kNoSolid || pushed <= 0.0) return vec3(0.0);
+  SolidRecord s = solidAt(k);
+  PoseRecord pose = later(s.pose, -control.step);
+  if (surfaceDistance(s.shape, localPoint(pose, start), local) > contactReach()) return vec3(0.0);
+  vec3 before = toScene(pose, local), by = pushed * (before - dot(before, normal) * normal);
+  PUSHED(k, s, x, normal, by);
+  return by;
+}
+
 // The velocity of particle i at x after contact with a solid that is near enough.
 vec3 touch(uint i, uint k, SolidRecord s, vec3 x, vec3 normal, vec3 v, vec3 given) {
   vec3 moving = velocityAt(s.pose, x);
@@ -158,6 +172,7 @@ void main() {
   float pushed;
   vec3 x = outside(from, near, 0.0, true, pushed), v = velocity[i].xyz;
   if (control.phase == kPhaseAdvancing) {
+    if (FIRM_SOLIDS) x = insideWalls(x + alongSurface(near, from - control.step * v, x, freeVelocity[i].w + pushed));
     if (params.sleeps != 0u) subtractStoppedMotion(length(v), length(v + (x - from) / control.step));
     v = velocityAfter(i, near, from, x);
   }

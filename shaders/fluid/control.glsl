@@ -107,7 +107,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     control.nextStep = control.timeLeft > 0.0 ? fittedStep(control.timeLeft, control.desiredStep) : control.desiredStep;
     float nextTravel = control.travel + (control.speed + solidSpeed + acceleration * control.nextStep) * control.nextStep;
     control.emissionWait -= control.step;
-    if (nextTravel > params.travelLimit || control.emissionWait <= 0.0 || regionsAreDue()) control.listState = kListDue;
+    if (nextTravel > travelLimit() || control.emissionWait <= 0.0 || regionsAreDue()) control.listState = kListDue;
   }
 
   if (first) sums.motionLow = sums.motionHigh = sums.stoppedLow = sums.stoppedHigh = sums.fast = 0u;

@@ -23,6 +23,10 @@ float meanMotionLeft() {
   return less ? 0.0 : meanMotion(sums.motionHigh - sums.stoppedHigh - borrow, low);
 }
 
+// m that the fastest particle may move before the list is rebuilt. A list that lacks the neighbors to come and has those that are left
+// behind pushes what slides past others: at rest nothing else would stop that. See docs/notes/neighbor-list.md.
+float travelLimit() { return params.travelLimit * mix(1.0, kTravelAtRest, control.restFraction); }
+
 // From the speed of the flow, the gains of the next substep.
 void setGains() {
   float moving = motionSpeed(control.head), share = moving > 0.0 ? min(control.flowSpeed / moving, 1.0) : 1.0, squared = share * share;

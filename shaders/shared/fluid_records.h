@@ -18,6 +18,7 @@ RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the i
 // a layer: substeps in the mean error at rest, and in the mean of the steps that it asks for
 RILL_CONST float kErrorSubsteps = 10.0f;
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // coefficient of noise damping, at most: no wave is turned around below 0.69
+RILL_CONST float kTravelAtRest = 0.5f;        // share of travelLimit in a fluid at rest
 RILL_CONST float kSparedFlow = 0.1f;          // mean speed of neighbors over the root of gravity times spacing where noise damping halves
 // share of the kernel inside solids that the tangential scale makes up for, at most. See
 // docs/notes/walls-and-solids.md
@@ -71,7 +72,7 @@ struct FluidParams {
   float warmRelease;      // times kappa where density is below rest density
   float reach;            // m, the longest of all supports plus skin: the list holds what was nearer when it was built
   float nearReach;        // m, the kernel's support plus skin; less than `reach` with surface tension
-  float travelLimit;      // m that the fastest particle may move before the list is rebuilt
+  float travelLimit;      // m that the fastest particle may move before the list is rebuilt, in motion
   float cfl;              // spacings a substep
   float maxStep;          // s, as the scene asks for; see stability.glsl
   float tolerance;        // mean compression aimed for; 0: none
