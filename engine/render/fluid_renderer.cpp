@@ -99,7 +99,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   addDispatch(graph, "fluid scene", scene, {last.arguments, kPixelArguments * 4}, push,
               {{"host_color", targets.color}, {"host_depth", targets.depth}, {"scene_color", sceneColor}, {"scene_depth", sceneDepth}});
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
-  BufferRef thickness, normals;
+  BufferRef thickness, normals, back;
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
     graph.skipped("surface mean normals", "the look is opaque");
@@ -107,6 +107,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
     normals = meanNormals.addTo(graph, last);
     const auto of = bodies.size() > 1 ? SurfaceStage::Of::EachFluid : SurfaceStage::Of::All;
     thickness = surface.addThickness(graph, kFluidThickness, fluid, thick, sceneDepth, &last, of);
+    back = surface.addBack(graph, last, thick, thickness, sceneDepth, of);
   }
   look::LookRecord values = lookRecord(look, thick, environment.get(), bodies);
   const bool lit = !look.opaque && (look.scattering.x > 0 || look.scattering.y > 0 || look.scattering.z > 0);
@@ -130,6 +131,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
                                      {"thickness", thickness},
                                      {"mean_normals", normals},
                                      {"samples", last.samples},
+                                     {"back", back},
                                      {"heights", sunward},
                                      {"environment", texels}});
     return [kernel, push, arguments = last.arguments](Commands& commands) {

@@ -59,6 +59,7 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device, bool storageReads) {
   stage.tiles_ = pipelines.make("render/surface_tiles");
   stage.compose_ = pipelines.make("render/surface_compose");
   stage.thickness_ = pipelines.make("render/surface_thickness", false, {{"FLUIDS", 1}});
+  stage.back_ = pipelines.make("render/fluid_back", false, {{"FLUIDS", 1}});
   stage.thicknessNoScene_ = pipelines.make("render/surface_thickness_no_scene", false, {{"FLUIDS", 1}});
   stage.planes_ = pipelines.make("render/surface_planes", texels);
   stage.blend_ = pipelines.make("render/surface_blend", texels);

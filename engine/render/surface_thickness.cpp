@@ -16,6 +16,12 @@ namespace {
 constexpr float kThicknessRadius = 1.2f;       // spacings: discs that overlap enough for a smooth sum
 constexpr float kThicknessUnit = 1.0f / 1024;  // spacings
 
+struct BackPush {
+  SurfacePush view;
+  uint32_t surfaceGrid = 0;
+};
+static_assert(sizeof(BackPush) <= 128);
+
 }  // namespace
 
 SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fluid, uint32_t step) {
@@ -47,7 +53,9 @@ Expected<void> SurfaceStage::setFluids(Device& device, std::span<const FluidBody
                                   {"CARRIER", m.carrier}});
   const ComputePipeline* behindScene = pipelines.make("render/surface_thickness", false, {{"FLUIDS", count}});
   const ComputePipeline* free = pipelines.make("render/surface_thickness_no_scene", false, {{"FLUIDS", count}});
+  const ComputePipeline* back = pipelines.make("render/fluid_back", false, {{"FLUIDS", count}});
   if (auto made = pipelines.result(); !made) return made;
+  fluidBack_ = back;
   fluidThickness_ = behindScene;
   fluidThicknessNoScene_ = free;
   mixedThickness_ = mixed;
@@ -59,7 +67,7 @@ Expected<void> SurfaceStage::setFluids(Device& device, std::span<const FluidBody
 BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
                                      BufferRef sceneDepth, SurfaceBuffers* surface, Of of) const {
   const bool each = of == Of::EachFluid && fluids_ > 1, hidden = sceneDepth != BufferRef{};
-  const uint32_t grids = !each ? 1 : hidden ? 2 * fluids_ : fluids_;
+  const uint32_t grids = (!each ? 1 : hidden ? 2 * fluids_ : fluids_) + (hidden ? 1 : 0);
   BufferRef own;
   if (!surface) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
   BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4 * grids});
@@ -80,6 +88,16 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
                {"concentration", fluid.concentration},
                {"scene_depth", sceneDepth}});
   return thickness;
+}
+
+BufferRef SurfaceStage::addBack(Graph& graph, const SurfaceBuffers& surface, const SurfacePush& push, BufferRef thickness,
+                                BufferRef sceneDepth, Of of) const {
+  const uint64_t cells = gridCells(push.width, push.height, push.step);
+  BufferRef back = graph.create("fluid back", {cells * 8});
+  addDispatch(graph, "fluid back", of == Of::EachFluid ? fluidBack_ : back_, divideUp(cells, kSurfaceGroup),
+              BackPush{push, surface.push.step | surface.push.margin << 16},
+              {{"thickness", thickness}, {"scene_depth", sceneDepth}, {"samples", surface.samples}, {"back", back}});
+  return back;
 }
 
 }  // namespace rill

@@ -16,7 +16,10 @@ layout(std430, set = 0, binding = 4) readonly buffer SceneDepth { float scene_de
 layout(std430, set = 0, binding = 5) readonly buffer Thickness { uint thickness[]; };  // of each fluid
 layout(std430, set = 0, binding = 6) readonly buffer MeanNormals { uint mean_normals[]; };  // packed mean normal of each sample with fluid
 layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
+layout(std430, set = 0, binding = 8) readonly buffer Back { uvec2 back[]; };
 #include "render/surface_mean_normal.glsl"
+#include "render/fluid_depths.glsl"
+#include "render/fluid_back.glsl"
 #endif
 #ifdef CRESTS
 layout(std430, set = 0, binding = CRESTS) readonly buffer Heights { vec2 heights[]; };  // of crest_heights.comp
@@ -211,7 +214,7 @@ vec3 scatteredSun(vec3 point, vec3 along, float size, Interior interior) {
 #endif
 
 // Refracted and scattered light, without the reflection. `scattered`: incident light.
-vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal, vec3 scattered) {
+vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal, vec3 scattered, float spread) {
   const vec2 middle = vec2(pixel) + 0.5;
   const float z = point.z;
   vec3 face = mean_normal.direction;
@@ -224,12 +227,17 @@ vec3 refractedLight(ivec2 pixel, vec3 point, vec3 sight, MeanNormal mean_normal,
   // Whitewater is full of air and scatters white light.
   const float white = look.finish.w * (1.0 - smoothstep(kWhitewaterFade.x, kWhitewaterFade.y, mean_normal.coherence)) *
                       (1.0 - exp(-straight / view.spacing));
-  const RayEnd end = refractedRay(middle, point, bent, sight, straight);
+  const Leaving leaving = leavingRay(point, bent, sight, straight, bends);
+  const RayEnd end = refractedRay(middle, point, bent, leaving);
   // At grazing angles the search may end too soon: a layer as thick as the fluid is here and there leaves at least this of the ray.
-  const float layer = min(straight, end.thickness) * clamp(dot(face, sight) / min(dot(face, bent), kEdgeOn), 0.0, 1.0);
-  const float path = max(min(end.inside, end.size), layer);
+  const float layer = min(straight, leaving.thickness) * clamp(dot(face, sight) / min(dot(face, bent), kEdgeOn), 0.0, 1.0);
+  const float path = max(end.inside, layer);
   const Passage fluids = passage(middle, path, scattered);
-  vec3 body = sceneBilinear(end.pixel, end.front) * fluids.through + fluids.added;
+  vec3 behind = sceneBilinear(end.pixel, end.front);
+#ifdef ENVIRONMENT
+  behind = mix(behind, skyColor(worldDirection(leaving.direction), look.light.xyz, spread), end.outside);
+#endif
+  vec3 body = behind * fluids.through + fluids.added;
 #ifdef CRESTS
   body += bends * scatteredSun(point, bent, path, fluids.interior);
 #endif
@@ -277,7 +285,7 @@ void main() {
   // Reflections in spray would flicker from pixel to pixel. A straight silhouette reflects in full.
   reflected *= z <= nearestDrawn() ? 0.0 : smoothstep(kReflectionFade.x, kReflectionFade.y, mean_normal.coherence);
   highlight *= smoothstep(kHighlightFade.x, kHighlightFade.y, mean_normal.coherence);
-  const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, scatteredLight(world_normal));
+  const vec3 body = refractedLight(pixel, rayFrom(axis) + z * along, sight, mean_normal, scatteredLight(world_normal), spread);
   const vec3 mirror = reflectedLight(body, world_sight, mirrored, spread);
 #endif
   const vec3 fluid = mix(body, mirror, reflected) + sunlight() * (reflected * highlight);

@@ -1,6 +1,7 @@
 #version 460
 // Thickness of the fluid along each sample's ray: each particle spreads its volume over a disc. With NO_SCENE nothing occludes it.
 // Of several fluids the thickness of each, one grid of samples after the other; in front of a scene also the depth where each begins.
+// In front of a scene the last grid has the sums of thicknesses times depths, from which the mean depth of the fluid follows.
 // MIXED: particles give each fluid its share in them.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
@@ -31,6 +32,14 @@ bool behindScene(ivec2 at, float z) {
 #endif
 }
 
+#ifndef NO_SCENE
+#include "render/fluid_depths.glsl"
+// A length in counts at depth z.
+void addDepth(uint cells, uint cell, float z, uint amount) {
+  atomicAdd(thickness[depthGrid(FLUIDS) * cells + cell], amount * depthCounts(z, view.spacing));
+}
+#endif
+
 #ifdef MIXED
 const float kBegins = 0.1;  // share of a fluid in a particle from which on it counts as one of those where the fluid begins
 float shares[FLUIDS];
@@ -54,14 +63,19 @@ void add(ivec2 at, float z, float meters) {
   if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, grid)) || behindScene(at, z)) return;
 #ifdef MIXED
   const uint cells = uint(grid.x * grid.y), cell = uint(at.y * grid.x + at.x);
+  uint sum = 0u;
   for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
     const uint part = uint(shares[fluid] * meters / view.unit + 0.5);
     if (part == 0u) continue;
+    sum += part;
     atomicAdd(thickness[fluid * cells + cell], part);
 #ifndef NO_SCENE
     if (shares[fluid] >= kBegins) atomicMax(thickness[(FLUIDS + fluid) * cells + cell], ~floatBitsToUint(z));
 #endif
   }
+#ifndef NO_SCENE
+  addDepth(cells, cell, z, sum);
+#endif
 #else
   const uint amount = uint(meters / view.unit + 0.5);
   if (amount == 0u) return;
@@ -69,6 +83,7 @@ void add(ivec2 at, float z, float meters) {
   atomicAdd(thickness[index], amount);
 #ifndef NO_SCENE
   if (FLUIDS > 1u) atomicMax(thickness[FLUIDS * uint(grid.x * grid.y) + index], ~floatBitsToUint(z));  // 0: none
+  addDepth(uint(grid.x * grid.y), uint(at.y * grid.x + at.x), z, amount);
 #endif
 #endif
 }

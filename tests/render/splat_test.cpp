@@ -145,8 +145,9 @@ TEST_F(ParticlesToSamples, ThicknessIsTheSumOfDiscs) {
       run(graph);
       const auto counts = read<uint32_t>(graph, ticket);
       const Samples samples(push);
-      ASSERT_EQ(counts.size(), size_t(samples.columns) * size_t(samples.rows));
-      std::vector<double> wanted(counts.size()), terms(counts.size());
+      const size_t cells = size_t(samples.columns) * size_t(samples.rows);
+      ASSERT_EQ(counts.size(), scene ? 2 * cells : cells);  // before a scene sums of depths follow
+      std::vector<double> wanted(cells), terms(cells), depths(cells);
       const double radius = double{push.radius}, volume = std::pow(double{kSpacing}, 3);
       const auto add = [&](int x, int y, double z, double meters) {
         if (x < 0 || y < 0 || x >= samples.columns || y >= samples.rows) return;
@@ -154,6 +155,7 @@ TEST_F(ParticlesToSamples, ThicknessIsTheSumOfDiscs) {
         if (scene && z > double{wall[pixel(y, 48) * 64 + pixel(x, 64)]}) return;
         const size_t at = size_t(y) * size_t(samples.columns) + size_t(x);
         wanted[at] += meters;
+        depths[at] += meters * z;
         terms[at] += meters > 0 ? 1 : 0;
       };
       for (const Float4& p : particles) {
@@ -183,11 +185,15 @@ TEST_F(ParticlesToSamples, ThicknessIsTheSumOfDiscs) {
           }
       }
       double thickest = 0;
-      for (size_t i = 0; i < counts.size(); ++i) {
+      for (size_t i = 0; i < cells; ++i) {
         // Each term is rounded to a count; the float of it by less.
         ASSERT_NEAR(counts[i] * double{push.unit}, wanted[i], 0.51 * double{push.unit} * terms[i] + 1e-4 * wanted[i])
             << i << " of step " << step << (scene ? " before a wall" : "");
         thickest = std::max(thickest, wanted[i]);
+        if (!scene || wanted[i] < 0.2 * double{kSpacing}) continue;
+        // Depths are rounded to a fourth of a spacing.
+        const double mean = counts[cells + i] / double(counts[i]) * double{kSpacing} / 4;
+        ASSERT_NEAR(mean, depths[i] / wanted[i], 0.15 * double{kSpacing}) << i << " of step " << step;
       }
       EXPECT_GT(thickest, double{kSpacing});
     }
