@@ -81,8 +81,8 @@ uint nearestSolid(NearSolids near, vec3 x, out vec3 center, out vec3 direction) 
   return nearest;
 }
 
-// What turns pushes by `pushed` m along the normal at x into pushes along that at `start`, where the substep began: pressure acts along that,
-// and what leans on a curved solid would gain speed. See docs/notes/walls-and-solids.md.
+// What turns pushes by `pushed` m along the normal at x into pushes along that at `start`, where the substep began and pressure acts:
+// else what leans on a curved solid gains speed. See docs/notes/walls-and-solids.md.
 vec3 alongSurface(NearSolids near, vec3 start, vec3 x, float pushed) {
   vec3 center, normal, local;
   uint k = nearestSolid(near, x, center, normal);
