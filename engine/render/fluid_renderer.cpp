@@ -103,6 +103,7 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   if (look.opaque) {
     graph.skipped(kFluidThickness.pass, "the look is opaque");
     graph.skipped("surface mean normals", "the look is opaque");
+    graph.skipped("fluid back", "the look is opaque");
   } else {
     normals = meanNormals.addTo(graph, last);
     const auto of = bodies.size() > 1 ? SurfaceStage::Of::EachFluid : SurfaceStage::Of::All;

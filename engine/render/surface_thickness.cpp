@@ -94,7 +94,7 @@ BufferRef SurfaceStage::addBack(Graph& graph, const SurfaceBuffers& surface, con
                                 BufferRef sceneDepth, Of of) const {
   const uint64_t cells = gridCells(push.width, push.height, push.step);
   BufferRef back = graph.create("fluid back", {cells * 8});
-  addDispatch(graph, "fluid back", of == Of::EachFluid ? fluidBack_ : back_, divideUp(cells, kSurfaceGroup),
+  addDispatch(graph, "fluid back", of == Of::EachFluid && fluids_ > 1 ? fluidBack_ : back_, divideUp(cells, kSurfaceGroup),
               BackPush{push, surface.push.step | surface.push.margin << 16},
               {{"thickness", thickness}, {"scene_depth", sceneDepth}, {"samples", surface.samples}, {"back", back}});
   return back;

@@ -39,10 +39,9 @@ Tap tapAt(ivec2 at, uvec2 grid) {
   for (uint fluid = 0u; fluid < FLUIDS; ++fluid) counts += thickness[fluid * cells + cell];
   const float size = float(counts) * view.unit;
   const float middle = meanDepth(float(thickness[depthGrid(FLUIDS) * cells + cell]), float(counts), view.spacing);
-  const bool fits = middle * size < kMaxDepthSum * view.spacing * view.spacing;
   const vec3 along = rayAlong(axisOf(samplePixel(at)));
   const float depths = size * inversesqrt(dot(along, along));
-  return Tap(middle + 0.5 * depths, fits ? size : 0.0, depths);
+  return Tap(middle + 0.5 * depths, size, depths);
 }
 
 void main() {
@@ -52,11 +51,12 @@ void main() {
   const ivec2 p = ivec2(index % grid.x, index / grid.x);
   const Tap own = tapAt(p, grid);
   const int taps = own.size > 0.0 ? kTaps : -kTaps - 1;  // none without fluid
-  const float side = metersAPixel(own.z) * float(view.step);
+  const float side = max(metersAPixel(own.z) * float(view.step), 1e-4 * view.spacing);
   const int stride = int(max(kReach * view.spacing / (float(kTaps) * side) + 0.5, 1.0));
   const float change = 3.0 * max(view.spacing, side * float(stride));
   float weights = 0.0, all = 0.0, zz = 0.0;
-  vec3 first = vec3(0.0), second = vec3(0.0), zs = vec3(0.0);  // sums of x, y, z; of xx, yy, xy; of xz, yz, and z again
+  vec3 first = vec3(0.0), second = vec3(0.0);  // sums of x, y, z; of xx, yy, xy
+  vec2 zs = vec2(0.0);                         // of xz, yz
   RILL_LOOP for (int y = -kTaps; y <= taps; ++y)
     RILL_LOOP for (int x = -kTaps; x <= taps; ++x) {
       const vec2 off = vec2(x, y);
@@ -70,25 +70,26 @@ void main() {
       weights += w;
       first += w * vec3(off, off_z);
       second += w * vec3(off * off, off.x * off.y);
-      zs.xy += w * off * off_z;
+      zs += w * off * off_z;
       zz += w * off_z * off_z;
     }
   const float inverse = 1.0 / max(weights, 1e-6);
   first *= inverse;
   second = second * inverse - vec3(first.xy * first.xy, first.x * first.y);
-  zs.xy = zs.xy * inverse - first.xy * first.z;
+  zs = zs * inverse - first.xy * first.z;
   zz = zz * inverse - first.z * first.z;
   const float determinant = second.x * second.y - second.z * second.z;
   vec2 slope = determinant > 0.01 ? vec2(second.y * zs.x - second.z * zs.y, second.x * zs.y - second.z * zs.x) / determinant : vec2(0.0);
-  const float misfit = sqrt(max(zz - dot(slope, zs.xy), 0.0));
+  const float misfit = sqrt(max(zz - dot(slope, zs), 0.0));
   const float z = own.z + (first.z - dot(slope, first.xy)) * view.spacing;
   slope *= view.spacing / (float(stride) * float(view.step));  // m per pixel
   const uvec2 pixel = min(uvec2(samplePixel(p)), uvec2(view.width, view.height) - 1u);
   const float gap = scene_depth[pixel.y * view.width + pixel.x] - z;
-  const float hidden = abs(own.z - own.depths - beginsAt(samplePixel(p)));
-  const float fits = (1.0 - smoothstep(kMisfit.x, kMisfit.y, misfit)) * smoothstep(kShare.x, kShare.y, weights / all);
+  const float begins = beginsAt(samplePixel(p)), hidden = abs(own.z - own.depths - begins);
+  const bool summed = (begins + own.size) * own.size < kMaxDepthSum * view.spacing * view.spacing;  // without an overflow
+  const float fits = (1.0 - smoothstep(kMisfit.x, kMisfit.y, misfit)) * smoothstep(kShare.x, kShare.y, weights / max(all, 1e-6));
   const float free = smoothstep(kGap.x, kGap.y, gap / view.spacing) * (1.0 - smoothstep(kWhole.x, kWhole.y, hidden / view.spacing));
-  const float trust = determinant > 0.01 ? fits * free : 0.0;
+  const float trust = determinant > 0.01 && summed ? fits * free : 0.0;
   // The plane in view space: differences along both axes of the picture.
   const vec2 axis = axisOf(samplePixel(p));
   const vec3 along = rayAlong(axis), widths = vec3(vec2(view.scale[0], view.scale[1]) * 2.0 / pictureSize() * widening(z), 0.0);

@@ -28,11 +28,11 @@ BackSample backAt(vec2 pixel) {
     const BackSample one = unpackBack(back[near.samples[k]]);
     const float w = shares[k] * one.trust;
     sum.z += w * one.z;
-    sum.lean += w * one.lean;
+    sum.slope += w * one.slope;
     sum.trust += w;
   }
   const float inverse = 1.0 / max(sum.trust, 1e-4);
-  return BackSample(sum.z * inverse, sum.lean * inverse, sum.trust);
+  return BackSample(sum.z * inverse, sum.slope * inverse, sum.trust);
 }
 
 // How a ray leaves the fluid.
@@ -57,7 +57,7 @@ Leaving leavingRay(vec3 from, vec3 bent, vec3 sight, float straight, float trust
   RILL_LOOP for (int k = 0; k < kBackSteps; ++k) {
     const vec2 pixel = clamp(pixelOf(from + size * bent), vec2(0.0), last_pixel), axis = axisOf(pixel);
     const BackSample behind = backAt(pixel);
-    normal = normalize(vec3(behind.lean, 1.0));
+    normal = normalize(vec3(behind.slope, 1.0));
     const vec3 end = rayFrom(axis) + behind.z * rayAlong(axis);
     const float next = clamp(dot(normal, end - from) / max(dot(normal, bent), 0.1), 0.0, 2.0 * straight);
     change = next - size;
@@ -100,8 +100,9 @@ RayParts rayParts(vec2 middle, float start, vec3 leaves, vec3 direction) {
   ray.depths = view.perspective > 0.0 ? 1.0 / vec3(start, leaves.z, end.z) : vec3(start, leaves.z, end.z);
   const vec2 size = pictureSize() - 1.0, to = ray.end - ray.leaves;
   if (all(greaterThanEqual(ray.leaves, vec2(0.0))) && all(lessThanEqual(ray.leaves, size))) {
-    const vec2 parts = (mix(vec2(0.0), size, greaterThan(to, vec2(0.0))) - ray.leaves) / mix(to, vec2(1e-6), lessThan(abs(to), vec2(1e-6)));
-    const float part = clamp(min(abs(parts.x), abs(parts.y)), 0.0, 1.0);
+    const bvec2 still = lessThan(abs(to), vec2(1e-6));
+    const vec2 parts = (mix(vec2(0.0), size, greaterThan(to, vec2(0.0))) - ray.leaves) / mix(to, vec2(1.0), still);
+    const float part = clamp(min(still.x ? 1.0 : parts.x, still.y ? 1.0 : parts.y), 0.0, 1.0);
     ray.end = mix(ray.leaves, ray.end, part);
     ray.depths.z = mix(ray.depths.y, ray.depths.z, part);
   }

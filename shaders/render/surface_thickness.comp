@@ -1,8 +1,6 @@
 #version 460
-// Thickness of the fluid along each sample's ray: each particle spreads its volume over a disc. With NO_SCENE nothing occludes it.
-// Of several fluids the thickness of each, one grid of samples after the other; in front of a scene also the depth where each begins.
-// In front of a scene the last grid has the sums of thicknesses times depths, from which the mean depth of the fluid follows.
-// MIXED: particles give each fluid its share in them.
+// Thickness of the fluid along each sample's ray, in the grids of SurfaceStage::addThickness(): each particle spreads its volume over a
+// disc. With NO_SCENE nothing occludes it. MIXED: particles give each fluid its share in them.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 
