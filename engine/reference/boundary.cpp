@@ -197,8 +197,8 @@ void ReferenceSolver::moveAlongSurface(size_t i, std::span<const Pose> solids, s
   if (nearest == solids.size()) return;
   const SurfacePoint start = surfaceOf(nearest, before[nearest], state.position[i]);
   if (start.distance > kContactDistance * settings.spacing) return;
-  const glm::dvec3 normal = vec(surface.normal), leaned = vec(start.normal);
-  const glm::dvec3 by = pushed * (leaned - glm::dot(leaned, normal) * normal);
+  const glm::dvec3 normal = vec(surface.normal), startNormal = vec(start.normal);
+  const glm::dvec3 by = pushed * (startNormal - glm::dot(startNormal, normal) * normal);
   add(nearest, by / inverseMass(i), state.predicted[i]);
   state.predicted[i] = collide(state.predicted[i] + by, {});
 }

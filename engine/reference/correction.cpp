@@ -39,7 +39,7 @@ void ReferenceSolver::correction(double dt, double push) {
         const double share = bodies_.share(n, at, glm::normalize(by));
         gaveWay_[i] = gaveWay_[i] || share < kFirmShare;
         rejected_[i] += (1 - share) * by;
-        pushedOut_[i] += glm::length(by);
+        if (!bodies_.isBody(n)) pushedOut_[i] += glm::length(by);
         add(n, share / inverseMass(i) * by, at);
       });
     } else {

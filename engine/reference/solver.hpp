@@ -170,8 +170,7 @@ class ReferenceSolver {
   /// Is called with a displacement of a particle by a solid, and the point that the reaction acts at.
   using AddReaction = std::function<void(size_t solid, const glm::dvec3& displacement, const glm::dvec3& at)>;
   glm::dvec3 collide(glm::dvec3 x, std::span<const Pose> poses, const AddReaction& add = {}, bool withBodies = true) const;
-  /// Of a particle that leans on its nearest solid since the start of the substep: makes pushes along the normal ones along that at the
-  /// start.
+  /// Turns pushes of a particle that has been in contact with its nearest solid into pushes along the normal at the substep's start.
   void moveAlongSurface(size_t i, std::span<const Pose> poses, std::span<const Pose> before, const AddReaction& add);
   glm::dvec3 contact(size_t i, glm::dvec3 v, double dt, std::span<const Pose> poses, const AddReaction& add) const;
   void addReactions(size_t i, double multiplier, std::span<const Pose> poses, const AddReaction& add) const;  ///< multiplier times grad B_i

@@ -81,16 +81,17 @@ uint nearestSolid(NearSolids near, vec3 x, out vec3 center, out vec3 direction) 
   return nearest;
 }
 
-// What turns pushes by `pushed` m along the normal at x into pushes along that at `start`, where the substep began and pressure acts:
-// else what leans on a curved solid gains speed. See docs/notes/walls-and-solids.md.
+// Turns pushes by `pushed` m along the normal at x into pushes along the normal at `start`, where pressure acted: the difference would
+// accelerate particles along curved solids. See docs/notes/walls-and-solids.md.
 vec3 alongSurface(NearSolids near, vec3 start, vec3 x, float pushed) {
+  if (pushed <= 0.0) return vec3(0.0);
   vec3 center, normal, local;
   uint k = nearestSolid(near, x, center, normal);
-  if (k == kNoSolid || pushed <= 0.0) return vec3(0.0);
+  if (k == kNoSolid) return vec3(0.0);
   SolidRecord s = solidAt(k);
   PoseRecord pose = later(s.pose, -control.step);
   if (surfaceDistance(s.shape, localPoint(pose, start), local) > contactReach()) return vec3(0.0);
-  vec3 before = toScene(pose, local), by = pushed * (before - dot(before, normal) * normal);
+  vec3 startNormal = toScene(pose, local), by = pushed * (startNormal - dot(startNormal, normal) * normal);
   PUSHED(k, s, x, normal, by);
   return by;
 }

@@ -23,8 +23,8 @@ float meanMotionLeft() {
   return less ? 0.0 : meanMotion(sums.motionHigh - sums.stoppedHigh - borrow, low);
 }
 
-// m that the fastest particle may move before the list is rebuilt. A list that lacks the neighbors to come and has those that are left
-// behind pushes what slides past others: at rest nothing else would stop that. See docs/notes/neighbor-list.md.
+// m that the fastest particle may move before the list is rebuilt. An old list has the neighbors that a particle leaves, but not all that
+// it approaches, which accelerates particles that slide past others: see docs/notes/neighbor-list.md.
 float travelLimit() { return params.travelLimit * mix(1.0, kTravelAtRest, control.restFraction); }
 
 // From the speed of the flow, the gains of the next substep.

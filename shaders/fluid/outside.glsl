@@ -13,7 +13,7 @@
 #endif
 
 // Moves a center out of the solids `near` it, where each will be `ahead` seconds from now, walls last.
-// `counts`: x is a position, not a prediction, which bodies do not push. `pushed`: m that solids moved it.
+// `counts`: x is a position, not a prediction, which bodies do not push. `pushed`: m that solids other than bodies moved it.
 vec3 outside(vec3 x, NearSolids near, float ahead, bool counts, out float pushed) {
   pushed = 0.0;
   uint n = 0u, k;
@@ -30,7 +30,7 @@ vec3 outside(vec3 x, NearSolids near, float ahead, bool counts, out float pushed
         vec3 outward = toScene(pose, normal), by = outward * (params.margin - distance);
         if (counts) { PUSHED(k, s, x, outward, by); }
         x += by;
-        pushed += params.margin - distance;
+        if (!BODIES || s.body == kNoBody) pushed += params.margin - distance;
       }
     }
     ++n;

@@ -18,7 +18,7 @@ RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the i
 // a layer: substeps in the mean error at rest, and in the mean of the steps that it asks for
 RILL_CONST float kErrorSubsteps = 10.0f;
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // coefficient of noise damping, at most: no wave is turned around below 0.69
-RILL_CONST float kTravelAtRest = 0.5f;        // share of travelLimit in a fluid at rest
+RILL_CONST float kTravelAtRest = 0.4f;        // share of travelLimit in a fluid at rest
 RILL_CONST float kSparedFlow = 0.1f;          // mean speed of neighbors over the root of gravity times spacing where noise damping halves
 // share of the kernel inside solids that the tangential scale makes up for, at most. See
 // docs/notes/walls-and-solids.md
