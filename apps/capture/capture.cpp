@@ -18,7 +18,6 @@
 #include "shared/atomic_file.hpp"
 #include "shared/exit_code.hpp"
 #include "shared/message.hpp"
-#include "shared/pipeline_cache_folder.hpp"
 #include "shared/progress.hpp"
 #include "shared/scene_folders.hpp"
 #include "shared/signals.hpp"
@@ -35,14 +34,7 @@ class Capture {
   int run() {
     if (const auto scene = readScene(); !scene) return refuse(scene.error());
     if (const auto outputs = checkOutputs(); !outputs) return refuse(outputs.error());
-    offline::Options settings;
-    settings.device = options_.device.name;
-    settings.deviceOrigin = options_.device.origin;
-    settings.reads = options_.reads;
-    settings.pipelineCache = apps::pipelineCacheFolder();
-    settings.orbit_degPerS = options_.orbit_degPerS;
-    settings.exposure_stops = options_.exposure_stops;
-    settings.film = options_.film.film(fps_);
+    offline::Options settings = offlineOptions(options_, fps_);
     settings.passTimes = options_.passTimes && (options_.stats || options_.explain);
     auto simulation = resumed_ ? offline::Simulation::resume(scene_, *resumed_, settings) : offline::Simulation::open(scene_, settings);
     if (!simulation) return refuse(resumed_ ? aboutCheckpoint(simulation.error()) : simulation.error());

@@ -13,6 +13,18 @@
 
 namespace rill::capture {
 
+offline::Options offlineOptions(const Options& options, double fps) {
+  offline::Options settings;
+  settings.device = options.device.name;
+  settings.deviceOrigin = options.device.origin;
+  settings.reads = options.reads;
+  settings.pipelineCache = apps::pipelineCacheFolder();
+  settings.orbit_degPerS = options.orbit_degPerS;
+  settings.exposure_stops = options.exposure_stops;
+  settings.film = options.film.film(fps);
+  return settings;
+}
+
 Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments) {
   RawOptions raw;
   CLI::App app(

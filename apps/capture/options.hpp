@@ -9,6 +9,7 @@
 #include "capture/requirement.hpp"
 #include "rill/device.hpp"
 #include "rill/expected.hpp"
+#include "rill/offline.hpp"
 #include "rill/scene_io.hpp"
 #include "shared/device_option.hpp"
 #include "shared/mesh_file.hpp"
@@ -50,6 +51,9 @@ struct Options {
   bool passTimes = true;  ///< for --stats and --explain
   std::string command;    ///< the command line, quoted for a shell
 };
+
+/// What simulations and players need of them, at `fps` frames per simulated second. Pass times are as by default.
+offline::Options offlineOptions(const Options& options, double fps);
 
 /// BadInput with the option, what was given and what was expected.
 Expected<apps::CommandLine<Options>> parseCommandLine(int count, const char* const* arguments);

@@ -18,7 +18,6 @@
 #include "shared/exit_code.hpp"
 #include "shared/exr.hpp"
 #include "shared/message.hpp"
-#include "shared/pipeline_cache_folder.hpp"
 #include "shared/ply.hpp"
 #include "shared/png.hpp"
 #include "shared/progress.hpp"
@@ -117,7 +116,7 @@ class Playback {
     const fs::path out = options_.out ? *options_.out : fs::path("out") / (byName ? fs::path(options_.scene) : fs::path(scene->name));
     if (auto places = checkPlaces(out); !places) return places;
 
-    auto player = offline::Player::open(*std::move(scene), settings());
+    auto player = offline::Player::open(*std::move(scene), offlineOptions(options_, options_.fps));
     if (!player) return player.error();
     player_.emplace(*std::move(player));
     if (auto ready = player_->prepareRender(options_.view, options_.width, options_.height); !ready) return ready;
@@ -162,18 +161,6 @@ class Playback {
     if (options_.graph)
       if (auto place = apps::checkFilePlace("--graph", *options_.graph); !place) return place;
     return options_.video ? Video::check(*options_.video) : Expected<void>();
-  }
-
-  offline::Options settings() const {
-    offline::Options settings;
-    settings.device = options_.device.name;
-    settings.deviceOrigin = options_.device.origin;
-    settings.reads = options_.reads;
-    settings.pipelineCache = apps::pipelineCacheFolder();
-    settings.orbit_degPerS = options_.orbit_degPerS;
-    settings.exposure_stops = options_.exposure_stops;
-    settings.film = options_.film.film(options_.fps);
-    return settings;
   }
 
   Expected<void> openOutputs(const fs::path& out) {

@@ -18,7 +18,7 @@ bool mayHold(const Json& value) {
 
 /// A place in a scene where a key could have been meant.
 struct KeyPlace {
-  std::string path;  ///< dotted; empty: there is none
+  std::string path;  ///< dotted; empty: not found
   size_t depth = std::numeric_limits<size_t>::max();
   bool fits = false;  ///< the value that was given
 };

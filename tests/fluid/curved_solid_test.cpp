@@ -1,4 +1,4 @@
-// Particles that lean on curved solids gain no speed along them.
+// Particles in contact with curved solids gain no speed along them.
 #include <cmath>
 
 #include "fluid/rig.hpp"
