@@ -101,6 +101,7 @@ void setGains(const Scene& scene, FluidSetup& setup) {
                              ", beyond which this kernel and regularization gain energy, found " + usedInstead(wanted, taken));
   setup.warm = startsWarm(scene);
   setup.params.warmRelease = f(kWarmRelease);
+  setup.params.momentum = setup.warm && scene.solver.iterations == 1 ? kMomentum : 0.0F;
   setup.params.warmGainInMotion = setup.limits.warmGainInMotion;
   setup.params.maxWarmGainAtRest = f(setup.limits.maxWarmGainAtRest);
   setup.params.layerWarmGainAtRest = f(std::min(setup.limits.layerWarmGainAtRest, kLargest));

@@ -5,9 +5,19 @@
 
 #include "reference/neighbors.hpp"
 #include "reference/solver.hpp"
+#include "shared/fluid_records.h"
 #include "shared/pair_hash.h"
 
 namespace rill::reference {
+namespace {
+
+/// The part of a multiplier's last change, m^2, that momentum acts on. `stiffness`: compression that a change of 1 m^2 ends, 1/m^2.
+double momentumPart(double change, double stiffness) {
+  const double ended = change * stiffness / kMomentumCompression, squared = ended * ended;
+  return squared / (1 + squared) * change;
+}
+
+}  // namespace
 
 ReferenceSolver::Pair ReferenceSolver::makePair(uint32_t i, uint32_t j) const {
   const glm::dvec3 r = state.predicted[i] - state.predicted[j];
@@ -71,11 +81,12 @@ void ReferenceSolver::density() {
 
 void ReferenceSolver::multipliers(bool firstIteration) {
   const double omega = std::lerp(settings.relaxation, settings.relaxationAtRest, restFactor_),
-               kappa = std::lerp(settings.warmStart, settings.warmStartAtRest, restFactor_);
+               kappa = std::lerp(settings.warmStart, settings.warmStartAtRest, restFactor_),
+               momentum = firstIteration && !blockStart_ ? (1 - restFactor_) * settings.momentum : 0;
   for (size_t i = 0; i < size(); ++i) {
     if (firstIteration) lambda_[i] = state.warm[i];
     delta_[i] = -omega * (densityRatio_[i] - 1) / denominator_[i];
-    const double lambda = std::min(0.0, lambda_[i] + delta_[i]);
+    const double lambda = std::min(0.0, lambda_[i] + delta_[i] + momentum * momentumPart(lastChange_[i], denominator_[i]));
     lambdaChange_[i] = lambda - lambda_[i];
     lambda_[i] = lambda;
     if (!firstIteration) continue;

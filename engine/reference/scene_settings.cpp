@@ -73,6 +73,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.relaxationAtRest = setup.params.relaxationAtRest;
   s.regularization = boundedRegularization(scene).taken;
   s.warmStart = setup.params.warmGainInMotion;
+  s.momentum = setup.params.momentum;
   s.warmStartAtRest = setup.limits.warmGainAtRest(setup.head);
   s.warmLimit = setup.params.warmLimit;
   s.motionSpeed = setup.limits.motionSpeed(setup.head);
@@ -86,6 +87,7 @@ ReferenceSettings settingsOf(const Scene& scene, const FluidSetup& setup, const 
   s.meltingTime = meltingTime(scene);
   s.viscosityAtRest = setup.artificialViscosity;
   s.sparedFlow = double{kSparedFlow} * std::sqrt(setup.params.layerHead);
+  s.travelLimit = setup.params.travelLimit;
   s.substepsPerBlock = static_cast<int>(setup.substepsPerBlock);
   s.vorticity = scene.fluid.vorticity;
   s.surfaceTension = largestTension(scene);

@@ -43,6 +43,7 @@ struct ReferenceSettings {
   double relaxation = 0.5;    ///< omega in motion, > 0 .. 2
   double regularization = 0;  ///< eps, a fraction of D_rest, >= 0
   double warmStart = 0.01;    ///< kappa in motion, 0 .. 0.5
+  double momentum = 0;        ///< of a multiplier's change in motion, what is added to the next in a block of substeps, 0 .. 0.5
   double warmRelease = 1.5;   ///< factor on kappa where the density is below rest density
 
   double motionSpeed = 0;  ///< speed of the flow (FluidControl::flowSpeed), m/s, from which on omega and kappa are those above; 0: always
@@ -52,7 +53,8 @@ struct ReferenceSettings {
   double meltingTime = 0;      ///< s, in which the scale of the density goes from the lattice's to liquidScale(); 0: it stays the lattice's
   double viscosityAtRest = 0;  ///< noise damping: viscosity at rest in addition to `viscosity`, Pa s; 0 at motionSpeed
   double sparedFlow = 0;       ///< m/s: noise damping is half where neighbors have this mean speed, less where more; 0: all have it
-  int substepsPerBlock = 1;    ///< noise damping is applied once per block of this many substeps
+  double travelLimit = std::numeric_limits<double>::infinity();  ///< m that the fastest particle in motion moves before a block ends
+  int substepsPerBlock = 1;  ///< noise damping is applied once per block of this many substeps; momentum not in its first
 
   double tensile = 0;           ///< strength of the artificial pressure, 0 .. 1; see sph/artificial_pressure.hpp
   double tensileRadius = 0.25;  ///< delta q / h

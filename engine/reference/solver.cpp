@@ -32,6 +32,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   state.fluid.assign(count, 0);
   lambda_.assign(count, 0);
   lambdaChange_.assign(count, 0);
+  lastChange_.assign(count, 0);
   predictionPush_ = pushedOut_ = std::vector<double>(count, 0);
   delta_.assign(count, 0);
   curl_.assign(count, glm::dvec3(0));
@@ -105,7 +106,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   const auto done = [this](Stage stage) {
     if (onStage) onStage(stage);
   };
-  const bool first = substeps_++ % settings.substepsPerBlock == 0;
+  blockStart_ = substepsOfBlock_ == 0;
   impulses_ = applied_ = warmImpulses_;
   rejected_.assign(size(), glm::dvec3(0));
   rejectedBefore_ = rejected_;
@@ -125,13 +126,14 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   }
   firstIteration_ = true;
   updateRestFactor();
+  planBlock(dt, dtNext);
   velocities(dt);
   done(Stage::Velocities);
   if (settings.viscosity > 0) {
     viscosity(dt);
     done(Stage::Viscosity);
   }
-  if (first) {
+  if (blockStart_) {
     if (settings.viscosityAtRest > 0) {
       dampNoise(blockTime_);
       done(Stage::NoiseDamping);
@@ -166,9 +168,20 @@ void ReferenceSolver::addSpeed(double speed) {
 
 // Uses the speeds at the start of the substep.
 void ReferenceSolver::updateRestFactor() {
-  const double flow = std::min(fastest_, kFlowTimes * std::sqrt(squares_ / static_cast<double>(std::max<size_t>(size(), 1))));
+  const double flow =
+      std::min(std::max(fastest_, emitterSpeed()), kFlowTimes * std::sqrt(squares_ / static_cast<double>(std::max<size_t>(size(), 1))));
   const double fraction = settings.motionSpeed > 0 ? std::min(flow / settings.motionSpeed, 1.0) : 1;
   restFactor_ = 1 - std::pow(fraction, 4);
+}
+
+// A block ends early where the device has to rebuild its neighbor list.
+void ReferenceSolver::planBlock(double dt, double dtNext) {
+  const double speed = std::max(fastest_, emitterSpeed()) + std::max(settings.solidSpeed, bodies_.fastest());
+  travel_ += speed * dt;
+  const bool due = travel_ + (speed + glm::length(settings.gravity) * dtNext) * dtNext >
+                   settings.travelLimit * std::lerp(1.0, double{kTravelAtRest}, restFactor_);
+  substepsOfBlock_ = due ? 0 : (substepsOfBlock_ + 1) % settings.substepsPerBlock;
+  if (due) travel_ = 0;
 }
 
 double ReferenceSolver::inverseMass(size_t i) const {
@@ -176,7 +189,9 @@ double ReferenceSolver::inverseMass(size_t i) const {
 }
 
 void ReferenceSolver::predict(double dt, double dtNext) {
-  for (double& w : state.warm) w *= (dtNext / dt) * (dtNext / dt);
+  const double scale = (dtNext / dt) * (dtNext / dt);
+  for (double& w : state.warm) w *= scale;
+  for (size_t i = 0; i < size(); ++i) lastChange_[i] = scale * lambdaChange_[i];
   predictPositions(dtNext, false);
   step_ = dtNext;
 }

@@ -113,6 +113,9 @@ class ReferenceSolver {
   /// Runs a substep of `dt`, the `dtNext` of the previous call or the `dt` of begin(), and predicts one of `dtNext`. s, > 0.
   void substep(double dt, double dtNext);
 
+  /// The next substep is the first of its block, as that of an advance is.
+  void startBlock() { substepsOfBlock_ = 0; }
+
   /// The stages of a substep in order. Each uses `state` and the results of earlier stages.
   void density();                           ///< neighbors of x*, pairs, rho, B, D
   void multipliers(bool firstIteration);    ///< lambda, dlambda; w in the first iteration
@@ -198,6 +201,7 @@ class ReferenceSolver {
   void deactivate(size_t i);
   void addSpeed(double speed);
   void updateRestFactor();
+  void planBlock(double dt, double dtNext);
   /// sum_j pairWeight (c_j - c_i)
   std::vector<double> exchange(const std::vector<double>& c) const;
   double diffusionRow() const;  ///< the largest sum over j of pairWeight
@@ -246,6 +250,8 @@ class ReferenceSolver {
   std::vector<Pair> pairs_;
   std::vector<glm::dmat3> scale_;  ///< a_i; empty without solids
   std::vector<double> densityRatio_, denominator_, delta_, lambda_, lambdaChange_;
+  std::vector<double> lastChange_;  ///< lambdaChange_ of the substep before, in the terms of this one, m^2
+  bool blockStart_ = true;          ///< the substep is the first of its block
   std::vector<SolidSample> boundary_;
   std::vector<glm::dvec3> boundaryPlace_;  ///< m, that it is of
   Bodies bodies_;
@@ -269,7 +275,8 @@ class ReferenceSolver {
   uint32_t viscosityCapped_ = 0;          ///< of them, those that the solve does not reach
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   double push_ = 0;                       ///< m^2, of the last correction
-  int substeps_ = 0;                      ///< since the start
+  int substepsOfBlock_ = 0;               ///< of the present block, before the present substep
+  double travel_ = 0;                     ///< m that the fastest particle moved since the device built its neighbor list
   double restFactor_ = 0;                 ///< 1: at rest, 0: at motionSpeed or faster
   double fastest_ = 0;                    ///< largest speed, m/s, initially or in the last velocities()
   double squares_ = 0;                    ///< sum of the squares of speeds, m^2/s^2, likewise

@@ -19,7 +19,7 @@ layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { DensityPush push; };
 layout(std430, binding = 8) buffer WarmBlock { float warm[]; };
-layout(std430, binding = 9) writeonly buffer WorkBlock { uvec4 work[]; };
+layout(std430, binding = 9) buffer WorkBlock { uvec4 work[]; };  // w: what storeWork() packs
 READ_NEAR_DISPLACED(10)
 layout(std430, binding = 11) buffer MultiplierBlock { float multiplier[]; };
 READ_NEAR_TANGENTIAL(12)
@@ -53,6 +53,14 @@ float unit = kMultiplierScale / params.inverseRestGradient;  // of multipliers a
 
 void storeWork(uint i, float change, float warmNext) {
   work[i] = uvec4(placeWithFluid(here, fluid), packHalf2x16(clamp(vec2(change, warmNext) * unit, -60000.0, 60000.0)));
+}
+
+// What the last change of the multiplier adds to this one (heavy ball, Polyak 1964), m^2, in a block, where particles keep their places.
+// `scale`: from the last step's terms to the present ones. See docs/notes/momentum.md.
+float momentumOf(uint i, float scale, float stiffness) {
+  if (push.blockStart != 0u || control.nextPhase != kPhaseAdvancing) return 0.0;
+  float last = unpackHalf2x16(work[i].w).x / unit * scale, ended = last * stiffness / kMomentumCompression, squared = ended * ended;
+  return params.momentum * (1.0 - control.restFraction) * squared / (1.0 + squared) * last;
 }
 
 // Asleep: the multiplier stays, in the terms of the next step.
@@ -91,7 +99,7 @@ float updateMultiplier(uint i, uint head) {
   } else if (first) {
     float ratio = control.nextStep / control.warmStep;
     before = warm[i] * ratio * ratio;  // 0 while particles settle
-    after = min(0.0, before + delta);
+    after = min(0.0, before + delta + momentumOf(i, ratio * ratio, stiffness));
     float gain = control.nextPhase == kPhaseInitialPressure ? 1.0 : control.nextWarmGain * (delta > 0.0 ? params.warmRelease : 1.0);
     warmNext = min(0.0, before + gain * delta);
     // bounded: in fluid without room it would grow without limit

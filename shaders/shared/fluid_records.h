@@ -18,6 +18,8 @@ RILL_CONST uint kMaxInitialPressureIterations = 1024u;    // iterations of the i
 // a layer: substeps in the mean error at rest, and in the mean of the steps that it asks for
 RILL_CONST float kErrorSubsteps = 10.0f;
 RILL_CONST float kMaxNoiseDamping = 0.5f;     // coefficient of noise damping, at most: no wave is turned around below 0.69
+RILL_CONST float kMomentum = 0.3f;            // part of a multiplier's change in a flow that is added to the next
+RILL_CONST float kMomentumCompression = 4.0e-4f;  // compression that a change of a multiplier ended where momentum halves
 RILL_CONST float kTravelAtRest = 0.4f;        // share of travelLimit in a fluid at rest
 RILL_CONST float kSparedFlow = 0.1f;          // mean speed of neighbors over the root of gravity times spacing where noise damping halves
 // share of the kernel inside solids that the tangential scale makes up for, at most. See
@@ -109,6 +111,7 @@ struct FluidParams {
   float solidSpeed;       // m/s, the fastest solid that keyframes move
   float minSpeedGain, maxSpeedGain;  // m/s: what a correction may add to a speed in a substep is held between them
   float speedLimit;       // m/s, of any particle
+  float momentum;         // in a flow; 0 with several iterations
   float warmLimit;        // m^2/s^2: the warm start is at most this times the step squared
   float boundLowX, boundLowY, boundLowZ;     // m, the domain, open sides too: particles beyond it count as outside
   float boundHighX, boundHighY, boundHighZ;

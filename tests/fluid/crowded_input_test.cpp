@@ -108,7 +108,7 @@ TEST_F(DegenerateInputTest, SeparatesManyCoincidentParticles) {
 
 // A block with a hundred times the rest density. A substep moves no particle farther than twice what cfl allows, half a spacing, and may be
 // half as long as the one before: four of them take a particle out of the reach of all others, with at most 2^4 times half a spacing a
-// first step. From then on walls take energy out.
+// first step. From then on gravity alone adds to its speed.
 TEST_F(DegenerateInputTest, CompressedBlockStaysInsideAtABoundedSpeed) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
@@ -127,7 +127,7 @@ TEST_F(DegenerateInputTest, CompressedBlockStaysInsideAtABoundedSpeed) {
       speed.push_back(s.fastest());
       EXPECT_LT(speed.back(), 16 * 0.5 * t.d() / t.step);
     }
-    EXPECT_LT(speed.back(), speed.front());
+    EXPECT_LT(speed.back(), speed.front() + 4 * 0.01 * 9.81);
   }
 }
 

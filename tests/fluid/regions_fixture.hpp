@@ -17,8 +17,8 @@ constexpr int kLayers = 6;
 constexpr double kOpens = 15.0;  // s, the tap: all sleeps by then, after 5 to 10 s
 
 /// A long tank with a tap over its low end.
-inline Trial channel() {
-  Trial t = sleepingTrial(kRoom, kLayers, kFrame);
+inline Trial channel(int layers = kLayers) {
+  Trial t = sleepingTrial(kRoom, layers, kFrame);
   t.capacity = static_cast<uint32_t>(t.x.size()) + 200;
   t.scene.emitters = {{.mouth = DiscMouth{.center = {0.06, 0.2, 0.04}, .radius = 0.02, .normal = {0, -1, 0}},
                        .flow = 1e-4,

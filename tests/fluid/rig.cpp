@@ -227,8 +227,9 @@ Oracle::Oracle(const Trial& trial) : trial_(trial), solver_(settingsOf(trial), r
 
 std::vector<reference::Impulse> Oracle::advanceWithLoads(int substeps) {
   std::vector<reference::Impulse> sums(trial_.scene.solids.size());
+  solver_.startBlock();
   for (int n = 0; n < substeps; ++n) {
-    advance(1);
+    substep();
     for (size_t k = 0; k < sums.size(); ++k) {
       sums[k].linear += solver_.impulses()[k].linear;
       sums[k].angular += solver_.impulses()[k].angular;
@@ -238,12 +239,15 @@ std::vector<reference::Impulse> Oracle::advanceWithLoads(int substeps) {
 }
 
 void Oracle::advance(int substeps) {
-  for (int n = 0; n < substeps; ++n) {
-    // A change that is due when a substep ends acts on the prediction of the next one.
-    for (const GravityChange& change : trial_.scene.gravity_changes)
-      if (change.at <= solver_.time() + trial_.step + 1e-7) solver_.settings.gravity = {change.value[0], change.value[1], change.value[2]};
-    solver_.substep(trial_.step, trial_.step);
-  }
+  solver_.startBlock();
+  for (int n = 0; n < substeps; ++n) substep();
+}
+
+void Oracle::substep() {
+  // A change that is due when a substep ends acts on the prediction of the next one.
+  for (const GravityChange& change : trial_.scene.gravity_changes)
+    if (change.at <= solver_.time() + trial_.step + 1e-7) solver_.settings.gravity = {change.value[0], change.value[1], change.value[2]};
+  solver_.substep(trial_.step, trial_.step);
 }
 
 FluidTest::Run::Run(FluidTest& test, const Trial& trial, const FluidSnapshot* from) : pulls(trial.pulls), test_(test), step_(trial.step) {

@@ -76,13 +76,14 @@ struct Snapshot {
 class Oracle {
  public:
   explicit Oracle(const Trial& trial);
-  /// Substeps of the trial's step, with the scene's changes of gravity.
+  /// An advance of some substeps of the trial's step, with the scene's changes of gravity.
   void advance(int substeps);
   /// The same; returns what each solid got.
   std::vector<reference::Impulse> advanceWithLoads(int substeps);
   reference::ReferenceSolver& solver() { return solver_; }
 
  private:
+  void substep();
   const Trial& trial_;
   reference::ReferenceSolver solver_;
 };

@@ -127,6 +127,23 @@ TEST_F(SubstepTest, NoiseDampingMatchesReference) {
   expectEqual(calmed(), 10, kTen, kTen, kAgeing);
 }
 
+// A block that is squeezed: what a correction closes goes on in the next, but not in the first substep of a block.
+TEST_F(SubstepTest, MomentumMatchesReference) {
+  Trial t = trial();
+  t.stepwise = false;
+  t.scene.gravity[1] = 0;
+  t.x = block({7, 6, 8}, t.d(), {0.2, 0.2, 0.2}, 0.02);
+  for (const glm::dvec3& x : t.x) t.v.push_back(-6.0 * (x - 0.2 - glm::dvec3(3.5, 3, 4) * t.d()));
+  expectEqual(t, 6, kTen, kTen);
+  Oracle without(t);
+  EXPECT_GT(without.solver().settings.momentum, 0);
+  without.solver().settings.momentum = 0;
+  without.advance(6);
+  EXPECT_GT(difference(t, 6, without).velocity, 5 * kTen);
+  t.scene.solver.iterations = 2;
+  EXPECT_EQ(Oracle(t).solver().settings.momentum, 0);
+}
+
 // The pass runs in the first substep of a block alone, with the time since the last one.
 TEST_F(SubstepTest, NoiseDampingOnceABlockMatchesReference) {
   Trial t = calmed();
