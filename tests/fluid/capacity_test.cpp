@@ -45,7 +45,7 @@ TEST_F(CapacityTest, SortsByDigitsWithRoomToSpare) {
   Trial t = trial();
   t.x = block({24, 24, 24}, t.d(), {}, 0.3);
   std::shuffle(t.x.begin(), t.x.end(), std::mt19937(7));
-  t.v = cloud(t.x.size(), 8, 3, glm::dvec3(-4));
+  t.v = randomCloud(t.x.size(), 8, 3, glm::dvec3(-4));
   setWalls(t, glm::dvec3(24 * t.d()));
   const auto sortedBy = [&](SortMethod method) {
     auto run = start(t);
@@ -72,7 +72,7 @@ TEST_F(CapacityTest, FillsPartOfSeveralLists) {
     t.scene.fluid.vorticity = 0.1;
     t.scene.solver.iterations = 2;
     t.x = block(glm::ivec3(side), t.d(), {}, 0.1);
-    t.v = cloud(t.x.size(), 2, 5, glm::dvec3(-1));
+    t.v = randomCloud(t.x.size(), 2, 5, glm::dvec3(-1));
     setWalls(t, glm::dvec3(side * t.d()));
     const auto after = [&](size_t lists) {
       auto run = start(t);

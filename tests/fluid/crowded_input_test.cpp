@@ -34,7 +34,7 @@ double speeds(const Snapshot& s) {
 // A cell with more particles than the sort looks through for each: it is put in order in another way.
 TEST_F(DegenerateInputTest, HandlesThousandsOfParticlesInOneCell) {
   Trial t = trial();
-  t.x = cloud(3000, 0.4 * t.d(), 7, {0.01, 0.01, 0.01});
+  t.x = randomCloud(3000, 0.4 * t.d(), 7, {0.01, 0.01, 0.01});
   for (const glm::dvec3& x : block({6, 6, 6}, t.d(), {0.5, 0, 0})) t.x.push_back(x);
   ASSERT_GT(t.x.size(), size_t{5} * kBinLimit);
   Snapshot first;
@@ -55,7 +55,7 @@ TEST_F(DegenerateInputTest, HandlesThousandsOfParticlesInOneCell) {
 // So many particles a cell that the fluid's sort is the one by digits.
 TEST_F(DegenerateInputTest, SortsFullCellsByDigits) {
   Trial t = trial();
-  t.x = cloud(3000, 2 * t.d(), 11);
+  t.x = randomCloud(3000, 2 * t.d(), 11);
   for (Gather gather : kGathers) {
     SCOPED_TRACE(nameOf(gather));
     t.gather = gather;
@@ -112,7 +112,7 @@ TEST_F(DegenerateInputTest, SeparatesManyCoincidentParticles) {
 TEST_F(DegenerateInputTest, CompressedBlockStaysInsideAtABoundedSpeed) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
-  t.x = cloud(400, std::cbrt(4.0) * t.d(), 3, glm::dvec3(0.3));
+  t.x = randomCloud(400, std::cbrt(4.0) * t.d(), 3, glm::dvec3(0.3));
   t.scene.solver.cfl = 0.25;
   for (Gather gather : kGathers) {
     t.gather = gather;
@@ -134,8 +134,8 @@ TEST_F(DegenerateInputTest, CompressedBlockStaysInsideAtABoundedSpeed) {
 TEST_F(DegenerateInputTest, FullListsFallBackToTheGrid) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
-  t.x = cloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
-  t.v = cloud(400, 1.0, 8, glm::dvec3(-0.5));
+  t.x = randomCloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
+  t.v = randomCloud(400, 1.0, 8, glm::dvec3(-0.5));
   auto listed = start(t);
   listed->substeps(1);
   EXPECT_GT(listed->stats().neighborOverflow, 0u);
@@ -157,7 +157,7 @@ TEST_F(DegenerateInputTest, HandlesListsThatOverflowForAWhile) {
   t.scene.solver.iterations = 2;
   t.scene.fluid.viscosity = 1;
   t.scene.fluid.vorticity = 0.2;
-  t.x = cloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
+  t.x = randomCloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
   t.v.assign(400, glm::dvec3(0));
   const auto after = [&](int substeps, uint32_t piece, uint64_t& overflow) {
     auto run = start(t);

@@ -13,7 +13,7 @@ Trial dam() {
   Trial t = trial();
   setWalls(t, {0.75, 0.75, 0.375});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 0.5, 9, {3, -0.25, -0.25});
+  t.v = randomCloud(t.x.size(), 0.5, 9, {3, -0.25, -0.25});
   t.step = 1.0 / 60;
   t.scene.solver.cfl = 0.25;
   t.scene.solver.tolerance = 0.005;

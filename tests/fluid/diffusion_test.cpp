@@ -44,7 +44,7 @@ Trial mixture(const std::vector<double>& diffusivities) {
     t.scene.fluids.push_back({.name = "fluid " + std::to_string(t.scene.fluids.size()), .diffusion = diffusion});
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
+  t.v = randomCloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
   for (size_t i = 0; i < t.x.size(); ++i) t.fluids.push_back(static_cast<uint8_t>(i * 7919 % diffusivities.size()));
   return t;
 }

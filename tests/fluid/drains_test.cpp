@@ -72,7 +72,7 @@ TEST_F(FlowsTest, OutflowIsAWallUpToItsLevel) {
   Trial t = trial();
   setWalls(t, {0.75, 1, 0.5});
   t.x = block({11, 9, 7}, t.d(), {0.03, 0.03, 0.03}, 0.2);
-  t.v = cloud(t.x.size(), 2, 5, glm::dvec3(-1));
+  t.v = randomCloud(t.x.size(), 2, 5, glm::dvec3(-1));
   for (const Axis side : {Axis::PlusX, Axis::MinusX, Axis::PlusZ, Axis::MinusZ}) {
     SCOPED_TRACE(sideBit(side));
     t.scene.domain->outflow = Outflow{side, 0.3};

@@ -21,7 +21,7 @@ TEST_F(FluidsTest, MomentumIsConserved) {
     t.scene.fluids = {{.name = "heavy", .density = 1000}, {.name = "light", .density = lighter}};
     // Compressed, but not so much that speeds are held back (docs/notes/overlaps.md), which acts on each particle alone.
     t.x = block({8, 8, 8}, (lighter > 100 ? 0.98 : 1.0) * t.d(), glm::dvec3(-4 * t.d()), lighter > 100 ? 0.03 : 0.001);
-    t.v = cloud(t.x.size(), 0.2, 5, glm::dvec3(7.9, -6.1, 4.9));
+    t.v = randomCloud(t.x.size(), 0.2, 5, glm::dvec3(7.9, -6.1, 4.9));
     for (const glm::dvec3& x : t.x) t.fluids.push_back(x.x > 0);
     auto run = start(t);
     const auto momentum = [&] {

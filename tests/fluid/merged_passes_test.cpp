@@ -10,7 +10,7 @@ namespace merged_passes_test {
 Trial tank(glm::ivec3 count = {12, 9, 8}) {
   Trial t = trial();
   t.x = block(count, t.d(), glm::dvec3(0.06), 0.05);
-  t.v = cloud(t.x.size(), 2, 3, glm::dvec3(-1));
+  t.v = randomCloud(t.x.size(), 2, 3, glm::dvec3(-1));
   setWalls(t, glm::dvec3(count) * t.d() + glm::dvec3(0.25));
   t.settle = true;
   t.scene.solver.cfl = 0.25;

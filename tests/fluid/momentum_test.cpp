@@ -17,7 +17,7 @@ class MomentumTest : public FluidTest {
     t.scene.solver.cfl = 10;  // the bound on the speed acts on each particle alone
     // Compressed, but not so much that speeds are held back (docs/notes/overlaps.md), which acts on each particle alone.
     t.x = block({7, 6, 7}, 0.98 * t.d(), glm::dvec3(-3.5 * t.d()), 0.03);
-    t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+    t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
     for (glm::dvec3& v : t.v) v += glm::dvec3(8, -6, 5);
     return t;
   }

@@ -21,7 +21,7 @@ Trial noisy(double viscosity) {
   setWalls(t, {0.6, 0.7, 0.5});
   t.scene.domain->slip = false;
   t.x = block({9, 8, 8}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   return t;
 }
 

@@ -25,7 +25,7 @@ class NonFiniteTest : public FluidTest {
  protected:
   NonFiniteTest() {
     t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-    t.v = cloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
+    t.v = randomCloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
     setWalls(t, {1, 1, 1});
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
     t.x[3].y = nan;

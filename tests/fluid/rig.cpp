@@ -135,15 +135,6 @@ std::vector<glm::dvec3> block(glm::ivec3 count, double d, glm::dvec3 from, doubl
   return x;
 }
 
-std::vector<glm::dvec3> cloud(size_t count, double edge, unsigned seed, glm::dvec3 from) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(0, edge);
-  std::vector<glm::dvec3> x(count);
-  for (glm::dvec3& p : x)
-    for (int a = 0; a < 3; ++a) p[a] = from[a] + place(random);
-  return x;
-}
-
 void addOutsideSolids(Trial& trial, const std::vector<glm::dvec3>& points) {
   for (const glm::dvec3& x : points) {
     bool outside = true;

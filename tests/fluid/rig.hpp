@@ -15,6 +15,7 @@
 #include "rill/fluid.hpp"
 #include "rill/snapshot.hpp"
 #include "support/gpu_test.hpp"
+#include "support/random_cloud.hpp"
 
 namespace rill::test {
 
@@ -59,7 +60,6 @@ Solid slab(glm::dvec3 low, glm::dvec3 high);
 std::vector<glm::dvec3> block(glm::ivec3 count, double d, glm::dvec3 from = glm::dvec3(0), double jitter = 0, unsigned seed = 1);
 /// Adds particles where there is no solid.
 void addOutsideSolids(Trial& trial, const std::vector<glm::dvec3>& points);
-std::vector<glm::dvec3> cloud(size_t count, double edge, unsigned seed, glm::dvec3 from = glm::dvec3(0));
 
 /// Particles in the order of their ids.
 struct Snapshot {

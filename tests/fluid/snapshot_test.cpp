@@ -17,7 +17,7 @@ Trial dam() {
   Trial t = trial();
   setWalls(t, {0.75, 0.75, 0.375});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 0.5, 9, {1.5, -0.25, -0.25});
+  t.v = randomCloud(t.x.size(), 0.5, 9, {1.5, -0.25, -0.25});
   t.step = kFrame;
   t.settle = true;
   t.scene.solver.cfl = 0.25;
@@ -144,7 +144,7 @@ TEST_F(SnapshotTest, ContinuesWithoutWalls) {
 TEST_F(SnapshotTest, ContinuesWithListsThatOverflow) {
   Trial t = dam();
   t.settle = false;
-  t.x = cloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
+  t.x = randomCloud(400, 5 * t.d(), 7, glm::dvec3(0.03));
   t.v.assign(400, glm::dvec3(0));
   t.scene.solver.max_substeps = 2;  // no more, or they have spread before the first frame is over
   t.scene.solver.cfl = 0.05;

@@ -77,8 +77,8 @@ class StatsTest : public FluidTest {
 TEST_F(StatsTest, MatchesReferenceInACompressedCloud) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
-  t.x = cloud(500, 6 * t.d(), 21, glm::dvec3(0.03));
-  t.v = cloud(500, 3.0, 22, {-1, -1, -2});
+  t.x = randomCloud(500, 6 * t.d(), 21, glm::dvec3(0.03));
+  t.v = randomCloud(500, 3.0, 22, {-1, -1, -2});
   t.scene.gravity[0] = 2;
   t.scene.solver.cfl = 0.25;
   auto run = start(t);
@@ -91,8 +91,8 @@ TEST_F(StatsTest, MatchesReferenceWithoutWallsFarFromZero) {
   Trial t = trial();
   t.origin[0] = 1000;
   t.origin[1] = -500;
-  t.x = cloud(400, 7 * t.d(), 31, glm::dvec3(-0.2));
-  t.v = cloud(400, 3.0, 32, {-1, -1, -2});
+  t.x = randomCloud(400, 7 * t.d(), 31, glm::dvec3(-0.2));
+  t.v = randomCloud(400, 3.0, 32, {-1, -1, -2});
   expectLike(t, *start(t));
 }
 
@@ -101,7 +101,7 @@ TEST_F(StatsTest, MatchesReferenceWithOtherKernelAndSupport) {
   t.scene.solver.kernel = KernelChoice::Poly6Spiky;
   t.scene.fluid.smoothing_ratio = 2.6;
   setWalls(t, {1, 1, 1});
-  t.x = cloud(500, 7 * t.d(), 41, glm::dvec3(0.03));
+  t.x = randomCloud(500, 7 * t.d(), 41, glm::dvec3(0.03));
   expectLike(t, *start(t));
 }
 

@@ -13,8 +13,8 @@ constexpr double kAgeing = 0.1;
 
 TEST_F(SubstepTest, CloudMatchesReference) {
   Trial t = trial();
-  t.x = cloud(400, 7.4 * t.d(), 11);
-  t.v = cloud(400, 1.0, 12, glm::dvec3(-0.5));
+  t.x = randomCloud(400, 7.4 * t.d(), 11);
+  t.v = randomCloud(400, 1.0, 12, glm::dvec3(-0.5));
   expectEqual(t, 1, kOne, kOne);
 }
 
@@ -36,7 +36,7 @@ TEST_F(SubstepTest, JitteredBlockInACornerMatchesReference) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.2);
-  t.v = cloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
+  t.v = randomCloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
@@ -104,7 +104,7 @@ TEST_F(SubstepTest, OneStepOfViscosityMatchesReference) {
   t.scene.fluid.viscosity = 20;
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
@@ -118,7 +118,7 @@ Trial calmed() {
   t.stepwise = true;
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 0.6, 5, glm::dvec3(-0.3));
+  t.v = randomCloud(t.x.size(), 0.6, 5, glm::dvec3(-0.3));
   return t;
 }
 
@@ -201,7 +201,7 @@ TEST_F(SubstepTest, SeveralStepsOfViscosityMatchReference) {
   t.scene.fluid.viscosity = 2500;
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   const ParticleSet particles = t.particles();
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen);
@@ -212,7 +212,7 @@ TEST_F(SubstepTest, VorticityMatchesReference) {
   t.scene.fluid.vorticity = 0.5;
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
@@ -222,7 +222,7 @@ TEST_F(SubstepTest, ViscosityAndVorticityMatchReference) {
   t.scene.fluid.viscosity = 20;
   t.scene.fluid.vorticity = 0.5;
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   expectEqual(t, 10, kTen, kTen);
 }
 
@@ -232,7 +232,7 @@ TEST_F(SubstepTest, DragMatchesReference) {
   setWalls(t, {1, 1, 1});
   t.scene.solids = {ball({0.5, 0.6, 0.5}, 0.1)};
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
@@ -301,7 +301,7 @@ TEST_F(SubstepTest, RestOnABoxMatchesReference) {
   setWalls(t, {1, 1, 1});
   t.scene.solids = {slab({0.1, 0, 0.1}, {0.9, 0.25, 0.9})};
   t.x = block({7, 4, 7}, t.d(), {0.2, 0.25, 0.25}, 0.05);
-  t.v = cloud(t.x.size(), 1.0, 5, {-0.5, -1.0, 0.5});
+  t.v = randomCloud(t.x.size(), 1.0, 5, {-0.5, -1.0, 0.5});
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen);
 }
@@ -312,7 +312,7 @@ TEST_F(SubstepTest, RestOnATurnedBoxMatchesReference) {
   t.scene.solids[0].rotation[2] = 0.6;
   t.scene.solids[0].rotation[3] = 0.8;
   t.x = block({6, 4, 6}, t.d(), {-0.5, 0.46, -0.2}, 0.05);
-  t.v = cloud(t.x.size(), 1.0, 5, {-0.5, -4.0, 0.5});
+  t.v = randomCloud(t.x.size(), 1.0, 5, {-0.5, -4.0, 0.5});
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen);
 }

@@ -22,8 +22,8 @@ Trial withTension(double contactAngle = 90) {
 
 TEST_F(SurfaceTensionTest, CloudMatchesReference) {
   Trial t = withTension();
-  t.x = cloud(400, 7.4 * t.d(), 11);
-  t.v = cloud(400, 1.0, 12, glm::dvec3(-0.5));
+  t.x = randomCloud(400, 7.4 * t.d(), 11);
+  t.v = randomCloud(400, 1.0, 12, glm::dvec3(-0.5));
   expectEqual(t, 1, kTensionOne, kTensionOne, 0.001);  // particles with enough neighbors are taken for deep
 }
 
@@ -40,7 +40,7 @@ TEST_F(SurfaceTensionTest, BlockInACornerMatchesReference) {
     Trial t = withTension(angle);
     setWalls(t, {1, 1, 1});
     t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-    t.v = cloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
+    t.v = randomCloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
     expectEqual(t, 1, kTensionOne, kTensionOne);
     expectEqual(t, 10, kTensionTen, kTensionTen, kTensionAgeing);
   }

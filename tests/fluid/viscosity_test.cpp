@@ -45,7 +45,7 @@ Trial degenerate(double viscosity) {
   setWalls(t, {1, 1, 1});
   t.x = block({6, 7, 6}, t.d(), {}, 0.1);
   t.x.insert(t.x.end(), {{0.9, 0.9, 0.9}, {0.7, 0.8, 0.2}, {0.76, 0.8, 0.2}});
-  t.v = cloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
+  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   return t;
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <random>
 #include <vector>
 
 #include "reference/solver.hpp"
+#include "support/random_cloud.hpp"
 
 namespace rill::reference {
 
@@ -20,14 +20,7 @@ inline std::vector<glm::dvec3> lattice(int nx, int ny, int nz, double d, glm::dv
   return x;
 }
 
-inline std::vector<glm::dvec3> randomCloud(size_t count, double edge, unsigned seed, glm::dvec3 from = glm::dvec3(0)) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(0, edge);
-  std::vector<glm::dvec3> x(count);
-  for (glm::dvec3& p : x)
-    for (int a = 0; a < 3; ++a) p[a] = from[a] + place(random);
-  return x;
-}
+using test::randomCloud;
 
 inline glm::dvec3 meanVelocity(const ReferenceSolver& solver) {
   glm::dvec3 sum(0);
