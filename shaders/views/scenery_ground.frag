@@ -34,14 +34,6 @@ vec3 backdrop(vec3 sight) {
   if (radius <= 0.0 || apart > radius + rim) return sky;
   return sky + min(sunlight() / (radius * radius), 3e4) * clamp((radius - apart) / rim + 0.5, 0.0, 1.0);
 }
-vec3 haze(vec3 sight) { return backdrop(sight); }  // the picture has a ground of its own
-#ifndef SKY
-// Of a ground that the light of the upper half makes as bright as the lower half is.
-vec3 groundAlbedo(bool tank) {
-  const vec3 light = skyLight(vec3(0.0, 1.0, 0.0)) + sunlight() * max(look.light.y, 0.0);
-  return clamp(skyLight(vec3(0.0, -1.0, 0.0)) / max(light, vec3(1e-6)), vec3(0.08), vec3(0.9));
-}
-#endif
 #else
 #ifdef SKY
 float backdropShare() { return 1.0; }
@@ -79,13 +71,20 @@ void main() {
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
   const bool inside = all(equal(beyond, vec2(0.0))), tank = step <= 0.0;
-  vec3 albedo = tank && inside ? kTankFloor : groundAlbedo(tank);
+  vec3 albedo = kTankFloor;
   if (inside && !tank) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
   const vec3 direct = reaching(sunlight() * max(sun.y, 0.0), p, bias, 0.5 * (width.x + width.y), false);
-  const vec3 lit = albedo * (kAmbientShare * skyLight(vec3(0.0, 1.0, 0.0)) + kSunShare * direct);
+  const vec3 ambient = kAmbientShare * skyLight(vec3(0.0, 1.0, 0.0));
+#ifdef ENVIRONMENT
+  // The picture has a ground of its own: shadows and caustics change it by as much as they do the light.
+  const vec3 unshadowed = ambient + kSunShare * sunlight() * max(sun.y, 0.0), light = ambient + kSunShare * direct;
+  color = vec4(inside ? albedo * light : color.rgb * light / max(unshadowed, vec3(1e-6)), 1.0);
+#else
+  const vec3 lit = (inside ? albedo : groundAlbedo(tank)) * (ambient + kSunShare * direct);
   const float far = length(beyond) / (1.4 * max(max(extent.x, extent.y), 1e-6));
   color = vec4(mix(lit, haze(sight), 1.0 - exp(-far * far)), 1.0);
+#endif
   gl_FragDepth = clamp(targetDepth(z), 0.0, 1.0);
 #endif
 }
