@@ -14,7 +14,7 @@ const vec2 kBackFade = vec2(0.5, 1.5);
 const vec2 kBentFade = vec2(0.05, 0.25), kTotalFade = vec2(-0.1, 0.1);
 const vec2 kParallelFade = vec2(0.1, 0.03);  // of the change of direction: less than that may be noise of the thickness
 const float kAway = 0.01;        // least cosine to the view direction of rays that go far
-const float kBorder = 0.06;      // heights of the picture: rays that end nearer to its border see the environment
+const float kBorder = 0.06;      // heights of the picture: rays that meet nothing before they are so near to its border see the environment
 const float kSilhouette = 16.0;  // pixels: least step in depth from one pixel to the next that is an edge of the scene
 
 float sceneDepthAt(vec2 pixel) { return scene_depth[uint(pixel.y) * view.width + uint(pixel.x)]; }
@@ -147,7 +147,8 @@ RayEnd refractedRay(vec2 middle, vec3 from, vec3 bent, Leaving leaving) {
   const float part = edge ? first : mix(first, last, gap / max(gap - beyond_gap, 1e-20));
   const float z = edge ? before : rayDepth(ray, part);
   const vec2 pixel = rayPixel(ray, part), to_border = min(pixel, pictureSize() - pixel);
-  const float in_fluid = part < 1.0 ? (z - from.z) / max(bent.z, 0.1) : leaving.straight;
-  const float outside = leaving.bends * (1.0 - smoothstep(0.0, kBorder, min(to_border.x, to_border.y) / float(view.height)));
+  const float in_fluid = part < 1.0 ? (z - from.z) / max(bent.z, 0.1) : mix(leaving.straight, leaving.inside, leaving.bends);
+  const bool met = beyond <= rayDepth(ray, last);
+  const float outside = met ? 0.0 : leaving.bends * (1.0 - smoothstep(0.0, kBorder, min(to_border.x, to_border.y) / float(view.height)));
   return RayEnd(pixel, max(edge ? 0.5 * (before + beyond) : from.z, from.z), in_fluid, outside);
 }

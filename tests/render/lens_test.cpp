@@ -93,6 +93,67 @@ TEST_F(Lens, BallInvertsTheSceneBySnellsLaw) {
     }
 }
 
+// The path within the ball is longer than that of the view ray: by 12 % at 0.6 radii from its middle.
+TEST_F(Lens, LightIsAbsorbedAlongTheBentRay) {
+  fill(shells({0, 0, 0}, kRadius));
+  const FluidView view = orthographic(1.6, ahead());
+  FluidLook gray = clear();
+  gray.absorption = {1, 1, 1};
+  const auto with = through(view, gray), without = through(view, clear());
+  double error = 0, straight = 0, pixels = 0;
+  for (uint32_t y = 0; y < view.height; ++y)
+    for (uint32_t x = 0; x < view.width; ++x) {
+      const auto& columns = view.projection.column;
+      const double across = ((x + 0.5) / view.width * 2 - 1) / columns[0].x, up = ((y + 0.5) / view.height * 2 - 1) / columns[1].y;
+      const double square = (across * across + up * up) / (kRadius * kRadius);
+      if (square < 0.55 * 0.55 || square > 0.65 * 0.65) continue;
+      const size_t i = size_t{y} * view.width + x;
+      const double path = -std::log(with[i][0] / without[i][0]) / (2 * kRadius);
+      error += path - std::sqrt(1 - square / (kIndex * kIndex));
+      straight += path - std::sqrt(1 - square);
+      ++pixels;
+    }
+  EXPECT_GT(pixels, 200);
+  EXPECT_LT(std::abs(error / pixels), 0.03) << "diameters; the view ray's differs by " << straight / pixels;
+}
+
+// A wall is there up to the border of the picture; only rays that leave it see the environment.
+TEST_F(Lens, RaysThatMeetTheSceneDoNotSeeTheEnvironment) {
+  environment_ = EnvironmentPicture{4, 2, std::vector<uint32_t>(8, sharedExponent(0, 1, 0))};
+  constexpr double kLow = -0.7;
+  const FluidView view = orthographic(1, ahead());
+  const auto& columns = view.projection.column;
+  const double behind = 3, z = -(kDistance + behind), w = columns[2].w * z + columns[3].w;
+  Backdrop red, black;
+  red.color = {1, 0, 0, 1};
+  red.depths.assign(size_t{view.width} * view.height, static_cast<float>((columns[2].z * z + columns[3].z) / w));
+  black.depths = red.depths;
+  fill(shells({0, kLow, 0}, kRadius));
+  const auto lit = drawn(view, clear(), red, {.color = kFormat}).channels(kFormat);
+  const auto dark = drawn(view, clear(), black, {.color = kFormat}).channels(kFormat);
+  double met = 0, least = 1, left = 0, most = 0;
+  for (uint32_t y = 0; y < view.height; ++y)
+    for (uint32_t x = 0; x < view.width; ++x) {
+      const Vector from{((x + 0.5) / view.width * 2 - 1) / columns[0].x, ((y + 0.5) / view.height * 2 - 1) / columns[1].y - kLow,
+                        kDistance};
+      const double r = std::hypot(from.x, from.y) / kRadius;
+      if (r < 0.25 || r > 0.6) continue;
+      const double end = std::abs(afterBall(from, {0, 0, -1}, behind).y + kLow) * std::abs(columns[1].y);  // 1: the border
+      const double share = lit[size_t{y} * view.width + x][0] - dark[size_t{y} * view.width + x][0];
+      if (end > 0.9 && end < 0.95) {
+        ++met;
+        least = std::min(least, share);
+      } else if (end > 1.2) {
+        ++left;
+        most = std::max(most, share);
+      }
+    }
+  EXPECT_GT(met, 20);
+  EXPECT_GT(least, 0.9);
+  EXPECT_GT(left, 20);
+  EXPECT_LT(most, 0.5);
+}
+
 // Light that enters a slab head on leaves it head on, whatever the noise of its thickness.
 TEST_F(Lens, SlabKeepsTheDirectionOfRays) {
   fill(block({-2, -2, -0.5}, {2, 2, 0.5}));

@@ -174,6 +174,7 @@ Drawn SurfaceOnGpu::drawn(const FluidView& view, const FluidLook& look, const Ba
   EXPECT_TRUE(made) << made.error().message;
   if (!made) return {};
   if (!bodies_.empty()) { EXPECT_TRUE(made->setFluids(bodies_)); }
+  if (environment_) { EXPECT_TRUE(made->setEnvironment(*environment_)); }
   Drawn first;
   Graph graph;
   for (int run = 0; run < 2; ++run) {

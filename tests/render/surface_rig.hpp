@@ -88,7 +88,8 @@ class SurfaceOnGpu : public GpuTest {
 
   Buffer position_, backdrop_, backdropDepth_;
   uint32_t count_ = 0;
-  std::vector<FluidBody> bodies_;  ///< of drawn()
+  std::vector<FluidBody> bodies_;                  ///< of drawn()
+  std::optional<EnvironmentPicture> environment_;  ///< of drawn()
   std::optional<FluidRenderer> renderer_;
   std::mt19937 random_{7};
 };
