@@ -15,6 +15,9 @@ constexpr double kRayleigh = 0.013558;                 // at 550 nm; by the four
 constexpr double kRayleighScale = 8, kMieScale = 1.2;  // height over which the density falls to 1/e
 constexpr double kMieAlbedo = 3.996 / 4.44;            // share of extinction that is scattering
 constexpr double kMieAsymmetry = 0.8;
+// Of what aerosols scatter, the peak ahead: it is taken not to be scattered (delta-M, Wiscombe 1977) but in the first order, whose phase
+// function is exact (Nakajima and Tanaka 1988). By comparison with random paths; the square of the asymmetry is 0.64.
+constexpr double kAhead = 0.55;
 constexpr double kOzone = 5.374e-4;  // 300 Dobson units: 5.374e18 molecules/m3 at most, by 1e-25 m2
 constexpr double kOzoneHeight = 25, kOzoneWidth = 15;
 // Of the extinction of aerosols over the land, by wavelength (Angstrom 1929); the paper has 0.
@@ -56,8 +59,8 @@ Step pathStep(int k, int count, double path) {
 Spectrum sentBy(const Atmosphere::Medium& air, double step, Spectrum& through) {
   Spectrum out;
   for (std::size_t b = 0; b < kBandCount; ++b) {
-    const double passed = std::exp(-air.extinction[b] * step);
-    out[b] = through[b] * (1 - passed) / std::max(air.extinction[b], 1e-12);
+    const double passed = std::exp(-air.weakened[b] * step);
+    out[b] = through[b] * (1 - passed) / std::max(air.weakened[b], 1e-12);
     through[b] *= passed;
   }
   return out;
@@ -93,11 +96,13 @@ Atmosphere::Medium Atmosphere::medium(double height) const {
     out.rayleigh[b] = rayleigh_[b] * molecules;
     out.mie[b] = mieScattering_[b] * aerosols;
     out.extinction[b] = out.rayleigh[b] + mieExtinction_[b] * aerosols + ozone_[b] * ozone;
+    out.weakened[b] = out.extinction[b] - kAhead * out.mie[b];
   }
   return out;
 }
 
-Atmosphere::Atmosphere(double aerosolDepth, double groundAlbedo) : albedo_(groundAlbedo), transmittance_(96, 32), multiple_(24, 12) {
+Atmosphere::Atmosphere(double aerosolDepth, double groundAlbedo)
+    : albedo_(groundAlbedo), transmittance_(96, 32), ahead_(96, 32), multiple_(24, 12) {
   for (std::size_t b = 0; b < kBandCount; ++b) {
     const double longer = kBands[b].nanometers / 550;
     rayleigh_[b] = kRayleigh * std::pow(longer, -4);
@@ -123,22 +128,30 @@ void Atmosphere::fillTransmittance() {
       const double length = std::lerp(least, horizon + longest, double(column) / (transmittance_.columns() - 1));
       const double squares = longest * longest - horizon * horizon - length * length;
       const double cosine = length > 0 ? std::clamp(squares / (2 * radius * length), -1.0, 1.0) : 1;
-      Spectrum depth = {};
+      Spectrum depth = {}, weakened = {};
       for (int k = 0; k < kTransmittanceSteps; ++k) {
         const Step step = pathStep(k, kTransmittanceSteps, length);
         const Medium air = medium(radiusAfter(radius, cosine, step.middle) - kGroundRadius);
-        for (std::size_t b = 0; b < kBandCount; ++b) depth[b] += air.extinction[b] * step.length;
+        for (std::size_t b = 0; b < kBandCount; ++b) {
+          depth[b] += air.extinction[b] * step.length;
+          weakened[b] += air.weakened[b] * step.length;
+        }
       }
-      for (std::size_t b = 0; b < kBandCount; ++b) transmittance_.at(column, row)[b] = std::exp(-depth[b]);
+      for (std::size_t b = 0; b < kBandCount; ++b) {
+        transmittance_.at(column, row)[b] = std::exp(-depth[b]);
+        ahead_.at(column, row)[b] = std::exp(-weakened[b]);
+      }
     }
   }
 }
 
-Spectrum Atmosphere::transmittance(double height, double cosine) const {
+Spectrum Atmosphere::transmittance(double height, double cosine) const { return through(transmittance_, height, cosine); }
+
+Spectrum Atmosphere::through(const Table<kBandCount>& table, double height, double cosine) const {
   const double radius = kGroundRadius + std::clamp(height, 0.0, kAirHeight);
   if (meetsGround(radius, cosine)) return all(0);
   const double horizon = horizonDistance(radius), longest = horizonDistance(kAirTop), least = kAirTop - radius;
-  return transmittance_((distanceToTop(radius, cosine) - least) / (horizon + longest - least), horizon / longest);
+  return table((distanceToTop(radius, cosine) - least) / (horizon + longest - least), horizon / longest);
 }
 
 Spectrum Atmosphere::multiple(double height, double sunCosine) const {
@@ -160,16 +173,16 @@ Spectrum Atmosphere::scattered(double height, double sunCosine) const {
     for (int s = 0; s < kScatterSteps; ++s) {
       const double distance = (s + 0.5) * step, at = radiusAfter(radius, cosine, distance);
       const Medium air = medium(at - kGroundRadius);
-      const Spectrum sun = transmittance(at - kGroundRadius, sunAt(distance, at)), sent = sentBy(air, step, through);
+      const Spectrum sun = this->through(ahead_, at - kGroundRadius, sunAt(distance, at)), sent = sentBy(air, step, through);
       for (std::size_t b = 0; b < kBandCount; ++b) {
-        const double part = sent[b] * (air.rayleigh[b] + air.mie[b]) / (kTurns * kTilts);
+        const double part = sent[b] * (air.rayleigh[b] + (1 - kAhead) * air.mie[b]) / (kTurns * kTilts);
         again[b] += part;
         once[b] += part * sun[b] / kSphere;
       }
     }
     if (!ground) continue;
     const double sunUp = sunAt(length, kGroundRadius);
-    const Spectrum sun = transmittance(0, sunUp);
+    const Spectrum sun = this->through(ahead_, 0, sunUp);
     for (std::size_t b = 0; b < kBandCount; ++b)
       once[b] += through[b] * albedo_ * std::numbers::inv_pi * std::max(sunUp, 0.0) * sun[b] / (kTurns * kTilts);
   }
@@ -186,12 +199,12 @@ Atmosphere::Gathered Atmosphere::gather(double up, double sun, double apart) con
     const double at = radiusAfter(kGroundRadius, up, step.middle);
     const double height = at - kGroundRadius, sunCosine = (kGroundRadius * sun + step.middle * apart) / at;
     const Medium air = medium(height);
-    const Spectrum direct = transmittance(height, sunCosine), indirect = multiple(height, sunCosine);
+    const Spectrum direct = this->through(ahead_, height, sunCosine), indirect = multiple(height, sunCosine);
     const Spectrum sent = sentBy(air, step.length, through);
     for (std::size_t b = 0; b < kBandCount; ++b) {
       out.rayleigh[b] += sent[b] * air.rayleigh[b] * direct[b];
       out.mie[b] += sent[b] * air.mie[b] * direct[b];
-      out.multiple[b] += sent[b] * (air.rayleigh[b] + air.mie[b]) * indirect[b];
+      out.multiple[b] += sent[b] * (air.rayleigh[b] + (1 - kAhead) * air.mie[b]) * indirect[b];
     }
   }
   return out;

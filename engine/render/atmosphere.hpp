@@ -68,6 +68,7 @@ class Atmosphere {
 
   struct Medium {
     Spectrum rayleigh, mie, extinction;  // 1/km; the first two scatter
+    Spectrum weakened;                   // extinction without what aerosols scatter straight ahead
   };
   Medium medium(double height) const;
 
@@ -78,7 +79,7 @@ class Atmosphere {
   Spectrum multiple(double height, double sunCosine) const;
 
   /// What reaches an eye on the ground of light scattered once by molecules and once by aerosols, both without their phase functions, and
-  /// of light scattered more often.
+  /// of light scattered more often. Light that aerosols have also scattered straight ahead counts as scattered once.
   struct Gathered {
     Spectrum rayleigh, mie, multiple;
   };
@@ -90,11 +91,12 @@ class Atmosphere {
 
  private:
   void fillTransmittance();
+  Spectrum through(const Table<kBandCount>& table, double height, double cosine) const;
   Spectrum scattered(double height, double sunCosine) const;
 
   Spectrum rayleigh_, mieScattering_, mieExtinction_, ozone_;  // 1/km where each is densest
   double albedo_;
-  Table<kBandCount> transmittance_, multiple_;
+  Table<kBandCount> transmittance_, ahead_, multiple_;  // the second with `weakened`
 };
 
 }  // namespace rill

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMaxDisc_rad = 0.17;    // a brighter region that is larger is a window or a cloud
 constexpr double kBrighterThanSky = 8;   // times the mean of the upper half: lowest radiance that counts as sun
-constexpr double kDimmestOfDisc = 1e-3;  // times the brightest texel: rims and bloom
+constexpr double kDimmestOfDisc = 4e-3;  // times the brightest texel: rims and bloom
 constexpr double kLeastLight = 0.1;      // of the sky's irradiance
 
 double dotOf(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
