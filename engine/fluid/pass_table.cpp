@@ -92,7 +92,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Correct, "correct", "fluid/correct", E::Gather, kEnd},
     {P::Collide, "collide", "fluid/collide", E::InReach, kEnd, kSolids},
 
-    {P::SumLoads, "sum loads", "fluid/loads", E::NearSolids, {S::Correct, S::Iterate}, kLoads},
+    {P::SumLoads, "sum loads", "fluid/loads", E::NearSolids, {S::Correct, S::Iterate}, kLoads, kClusters},
     {P::SolidLoads, "loads on solids", "fluid/solid_loads", E::One, {S::Correct, S::Iterate}, kLoads},
     {P::MoveBodies, "move bodies", "fluid/move_bodies", E::One, {S::Correct, S::Iterate}, kBodies},
 

@@ -153,7 +153,7 @@ struct PassCondition {
 
 struct PassOptions {
   NamedConstant constant = {};  ///< besides those of the fluid
-  bool clusters = false;        ///< its particles walk the grid together, in whole subgroups
+  bool clusters = false;        ///< CLUSTER invocations work together, in whole subgroups
   bool force = false;           ///< changes velocities at the end of every substep, in the order of the table; declared by its row alone
 };
 

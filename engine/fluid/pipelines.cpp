@@ -146,7 +146,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
         if (auto ok = add(kOverNearLists, {}, withoutCluster(device.info(), choice, kFluidGroup)); !ok) return ok;
       return add(kOverNearGrid, {{"WALKS", true}}, choice.need);
     case Extent::NearSolids:
-      return add(kOverNearSolids, {{"NEAR_SOLIDS", true}});
+      return add(kOverNearSolids, {{"NEAR_SOLIDS", true}}, row.options.clusters ? choice.need : SubgroupNeed{});
     case Extent::InReach:
       return add(kOverInReach, {{"NEAR_SOLIDS", true}});
     case Extent::NearMouths:

@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "fluid/uniforms.glsl"
 #include "fluid/images.glsl"
 #include "shared/loops.glsl"
@@ -60,28 +61,32 @@ void addSolid(inout Reaction r, SolidRecord s, vec3 x, vec2 multipliers) {
   } LOOP_END(more);
 }
 
-uint lane = 0u, lanes = 1u;  // among those of the subgroup that are there
+const uint kSums = 2u * kLoadComponents;
 
-// By all lanes; `mine`: the lane has something for solid k, which is the same for these lanes. Each lane adds some of the totals: CPU
-// drivers execute an atomic addition for all lanes, one by one.
+// By all lanes; `mine`: the lane has something for solid k, which is the same for these lanes. In each of two steps a lane hands half of
+// its sums to a lane that has the other half, then what is left is added up: a third of the work of a sum over the subgroup for each.
 void addToSums(uint k, Reaction r, bool mine) {
-  const uint kSums = 2u * kLoadComponents;
-  int high[kSums];
-  uint low[kSums];
+  ivec2 sum[kSums];  // high, low
   for (uint c = 0u; c < kSums; ++c) {
-    split(mine ? r.units[c] : 0.0, high[c], low[c]);
-    high[c] = subgroupAdd(high[c]);
-    low[c] = subgroupAdd(low[c]);
+    uint low;
+    split(mine ? r.units[c] : 0.0, sum[c].x, low);
+    sum[c].y = int(low);
   }
-  for (uint first = 0u; first < kSums; first += lanes) {
-    uint own = first + lane, lowOfOwn = 0u;
-    int highOfOwn = 0;
-    for (uint c = 0u; c < kSums; ++c) {
-      if (c != own) continue;
-      highOfOwn = high[c];
-      lowOfOwn = low[c];
-    }
-    addWide(k * kSolidSumWords + 2u * min(own, kSums - 1u), highOfOwn, lowOfOwn);
+  bool odd = (gl_SubgroupInvocationID & 1u) != 0u, upper = (gl_SubgroupInvocationID & 2u) != 0u;
+  for (uint c = 0u; c < kSums / 2u; ++c) {
+    ivec2 given = odd ? sum[c] : sum[c + kSums / 2u];
+    sum[c] = (odd ? sum[c + kSums / 2u] : sum[c]) + subgroupShuffleXor(given, 1u);
+  }
+  for (uint c = 0u; c < kSums / 4u; ++c) {
+    ivec2 given = upper ? sum[c] : sum[c + kSums / 4u];
+    sum[c] = (upper ? sum[c + kSums / 4u] : sum[c]) + subgroupShuffleXor(given, 2u);
+  }
+  uint first = (odd ? kSums / 2u : 0u) + (upper ? kSums / 4u : 0u);
+  for (uint c = 0u; c < kSums / 4u; ++c) {
+    if (CLUSTER > 4u) sum[c] += subgroupShuffleXor(sum[c], 4u);  // a loop would leave the sums in memory
+    if (CLUSTER > 8u) sum[c] += subgroupShuffleXor(sum[c], 8u);
+    if (CLUSTER > 16u) sum[c] += subgroupShuffleXor(sum[c], 16u);
+    if ((gl_SubgroupInvocationID & (CLUSTER - 1u)) < 4u) addWide(k * kSolidSumWords + 2u * (first + c), sum[c].x, uint(sum[c].y));
   }
 }
 
@@ -97,9 +102,6 @@ void main() {
   if (control.phase != kPhaseAdvancing) multipliers.x = 0.0;
 
   near.mask = nearSampledAt(inRange ? n : 0u);
-
-  lanes = subgroupAdd(1u);
-  lane = subgroupExclusiveAdd(1u);
   // By solids that any lane has, not by each lane's own next one: then a solid's sums take one addition a subgroup.
   uint m = 0u, k = 0u;
   bool more = inRange && isActive(x) && nextSolid(near, m, k);
