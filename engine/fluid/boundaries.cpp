@@ -83,6 +83,8 @@ bool fits(const MassProperties& m) {
   return within(m.mass) && within(size) && xx > 0 && minor > 0 && determinant > 1e-12 * size * size * size;
 }
 
+static_assert(kPointWorkgroups * kFluidGroup >= kMaxContactPoints);
+
 Expected<void> addBody(const Solid& solid, const BodyShape& shape, const Double3& origin, FluidSetup& setup) {
   const auto index = static_cast<uint32_t>(setup.solids.size());
   const MassProperties m = massOf(solid, shape.unit);
@@ -96,6 +98,7 @@ Expected<void> addBody(const Solid& solid, const BodyShape& shape, const Double3
   }
   setup.movingSolids = true;
   setup.bodies.push_back(bodyRecord(solid, m, index, origin));
+  setup.bodies.back().firstPoint = static_cast<uint32_t>(setup.contactPoints.size());
   for (const ContactPoint& point : shape.points)
     setup.contactPoints.push_back(
         {f(point.center.x), f(point.center.y), f(point.center.z), f(point.radius), static_cast<uint32_t>(setup.bodies.size() - 1)});

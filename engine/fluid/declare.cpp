@@ -14,8 +14,6 @@ uint64_t FluidImpl::fixedGroups(Extent extent) const {
       return std::min<uint64_t>(divideUp(capacity, kMeasureShare * kFluidGroup), kMeasurePartials);
     case Extent::Bodies:
       return divideUp(setup.bodies.size(), kFluidGroup);
-    case Extent::ContactPoints:
-      return divideUp(setup.contactPoints.size(), kFluidGroup);
     case Extent::PressureProbes:
       return setup.pressureProbes.size();
     case Extent::Regions:

@@ -133,9 +133,9 @@ enum class Extent : uint8_t {
   NearMouths,  ///< particles near mouths of emitters
   Regions,     ///< regions that fall asleep on their own
   Bodies,      ///< rigid bodies
-  ContactPoints,   ///< their sample points
+  ContactPoints,   ///< sample points of those that may touch something
   Contacts,        ///< those of their sample points that may touch something
-  ContactBodies,   ///< rigid bodies, if one of these points may
+  ContactBodies,   ///< rigid bodies in contact
   PressureProbes,  ///< a workgroup each
   Births,          ///< particles that emitters may add at a rebuild
   NearGather       ///< the same over their neighbors; where passes are merged (on GPUs) in the variant that can walk the grid alone

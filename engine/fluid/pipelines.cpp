@@ -98,6 +98,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   if (controls) prepared.arguments = FluidArray::DensityCommands;
   const bool touches = row.extent == Extent::Contacts || row.extent == Extent::ContactBodies;
   if (touches) prepared.arguments = FluidArray::ContactCommands;
+  const bool tests = row.extent == Extent::ContactPoints;
+  if (tests) prepared.arguments = FluidArray::PointCommands;
   shader = shaderVariant(device, shader, "_merged", setup.mergesPasses);
   shader = shaderVariant(device, shader, "_texel", texel_);
   const ClusterChoice choice = clusterOf(device);
@@ -124,7 +126,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
         const auto k = static_cast<uint32_t>(when);
         if (controls)
           commands[k] = over == kOverGrid ? 1 : 0;
-        else if (touches)
+        else if (touches || tests)
           commands[k] = row.extent == Extent::ContactBodies ? 1 : 0;
         else
           commands[k] = commands_.shared(k, over, groups);

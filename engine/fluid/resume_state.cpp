@@ -64,6 +64,7 @@ void FluidImpl::resumeSolids(const FluidSnapshot& s) {
     bodies[k].predicted = saved.predicted;
     bodies[k].held = saved.held;
     bodies[k].stopped = saved.stopped;
+    bodies[k].mayTouch = saved.mayTouch;
     bodies[k].stiffness = saved.stiffness * std::sqrt(saved.mass / bodies[k].mass);  // the host may have changed its mass
   }
   takeBodies(std::as_bytes(std::span(bodies)));

@@ -48,6 +48,7 @@ void FluidImpl::stageScene() {
   if (setup.params.tensionRate > 0) staging_->clear(slotOf(FluidArray::SurfaceParticle));
   staging_->clear(slotOf(FluidArray::DensityCommands));
   staging_->clear(slotOf(FluidArray::ContactCommands));
+  staging_->clear(slotOf(FluidArray::PointCommands));
 }
 
 void FluidImpl::stageFlows() {

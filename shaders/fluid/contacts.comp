@@ -21,6 +21,7 @@ layout(std430, binding = 7) buffer SlipBlock { SlipRecord slips[]; };
 layout(std430, binding = 8) buffer ContactCandidateBlock { uvec2 contactCandidates[]; };
 #ifdef COUNTS
 layout(std430, binding = 10) buffer ContactCommandBlock { uint contactCommands[]; };
+layout(std430, binding = 11) buffer ContactBodiesBlock { uint contactBodies[]; };
 const bool kCounts = true;
 #else
 const bool kCounts = false;
@@ -71,11 +72,21 @@ SlipRecord slip;                                          // of the point
 SlipRecord counted = SlipRecord(0u, 0.0, 0.0, 0.0, 0.0);  // the same in this substep
 bool persists = false;                                    // it continues that of the last one
 
+// Counts a contact of body n, and lists the body at its first.
+void countContact(uint n) {
+  if (n == kNoBody || atomicAdd(bodies[n].contacts, 1u) != 0u) return;
+#ifdef COUNTS
+  uint place = atomicAdd(contactBodies[1], 1u);
+  contactBodies[kContactLists + kPointWorkgroups * params.bodyCount + place] = n;
+  atomicMax(contactCommands[3], place / kFluidGroup + 1u);
+#endif
+}
+
 // The slip of a point continues where it touches what it touched in the last substep, which added to it; else it begins at one of its
 // contacts.
 void count(Partner own, Partner other, vec3 normal) {
-  if (own.body != kNoBody) atomicAdd(bodies[own.body].contacts, 1u);
-  if (other.body != kNoBody) atomicAdd(bodies[other.body].contacts, 1u);
+  countContact(own.body);
+  countContact(other.body);
   if (persists) return;
   persists = slip.partner == other.name && control.phase == kPhaseAdvancing;
   vec3 slipped = vec3(0.0);
@@ -121,12 +132,12 @@ void touch(Partner own, Partner other, vec3 at, vec3 normal, float depth) {
 }
 
 #ifdef COUNTS
-// Of all points.
-bool pointAt(uint k, out uint n, out uint candidates) {
-  n = min(k, params.contactPoints - 1u);
-  uint body = contactPoints[n].body;
+// Of all points of the bodies that touched_solids.comp lists, a workgroup for up to kFluidGroup points of one.
+bool pointAt(out uint n, out uint candidates) {
+  uint listed = contactBodies[kContactLists + flatGroup()], body = listed / kPointWorkgroups;
+  n = bodies[body].firstPoint + listed % kPointWorkgroups * kFluidGroup + gl_LocalInvocationID.x;
   candidates = ((1u << touched[body].count) - 1u) | (touched[body].walls != 0u ? kMayTouchWalls : 0u);
-  return k < params.contactPoints && bodyStep() > 0.0;
+  return flatGroup() < contactBodies[0] && n < params.contactPoints && contactPoints[n].body == body;
 }
 
 void listPoint(uint n, uint found) {
@@ -134,11 +145,10 @@ void listPoint(uint n, uint found) {
   uint place = atomicAdd(contactCandidates[0].x, 1u);
   contactCandidates[place + 1u] = uvec2(n, found);
   atomicMax(contactCommands[0], place / kFluidGroup + 1u);
-  atomicMax(contactCommands[3], divideUp(params.bodyCount, kFluidGroup));
 }
 #else
-bool pointAt(uint k, out uint n, out uint candidates) {
-  uint count = contactCandidates[0].x;
+bool pointAt(out uint n, out uint candidates) {
+  uint k = flatInvocation(), count = contactCandidates[0].x;
   uvec2 point = contactCandidates[min(k + 1u, count)];
   n = point.x;
   candidates = point.y;
@@ -148,7 +158,7 @@ bool pointAt(uint k, out uint n, out uint candidates) {
 
 void main() {
   uint n, candidates, found = 0u;
-  if (!pointAt(flatInvocation(), n, candidates)) return;
+  if (!pointAt(n, candidates)) return;
   uint body = contactPoints[n].body;
   ContactPointRecord point = contactPoints[n];
   slip = slips[n];

@@ -11,6 +11,7 @@ layout(std430, binding = 3) readonly buffer SolidLoadBlock { SolidLoadRecord sol
 layout(std430, binding = 4) buffer BodyBlock { BodyRecord bodies[]; };
 layout(std430, binding = 5) buffer SumsBlock { FluidSums sums; };
 layout(std430, binding = 6) writeonly buffer ContactCommandBlock { uint contactCommands[]; };
+layout(std430, binding = 7) writeonly buffer PointCommandBlock { uint pointCommands[]; };
 #include "fluid/predicted_bodies.glsl"
 
 PoseRecord reacted(BodyRecord b) {
@@ -49,7 +50,7 @@ void endSubstep(uint n, BodyRecord b, PoseRecord s) {
 }
 
 void main() {
-  if (push.ends != 0u && gl_LocalInvocationID.x == 0u) contactCommands[0] = contactCommands[3] = 0u;  // until the next substep
+  if (push.ends != 0u && gl_LocalInvocationID.x == 0u) contactCommands[0] = contactCommands[3] = pointCommands[0] = 0u;  // until the next substep
   for (uint n = gl_LocalInvocationID.x; n < params.bodyCount; n += gl_WorkGroupSize.x) {
     BodyRecord b = bodies[n];
     bool moves = b.held == 0u, last = push.ends != 0u;

@@ -11,6 +11,10 @@ layout(std430, binding = 2) buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 3) readonly buffer SolidLoadBlock { SolidLoadRecord solidLoads[]; };
 layout(std430, binding = 4) buffer BodyBlock { BodyRecord bodies[]; };
 layout(std430, binding = 5) readonly buffer PullBlock { PullRecord pulls[]; };
+layout(std430, binding = 6) writeonly buffer ContactCandidateBlock { uvec2 contactCandidates[]; };
+layout(std430, binding = 7) writeonly buffer ContactBodiesBlock { uint contactBodies[]; };
+layout(std430, binding = 8) writeonly buffer ContactCommandBlock { uint contactCommands[]; };
+layout(std430, binding = 9) writeonly buffer PointCommandBlock { uint pointCommands[]; };
 #include "fluid/predicted_bodies.glsl"
 #include "fluid/pulls.glsl"
 
@@ -31,7 +35,18 @@ PoseRecord predictedPose(uint n, BodyRecord b, float dt) {
   return poseOf(centerOf(s) + dt * v, after, v, inverseInertiaAt(b, after) * momentum);
 }
 
+// No contacts have been found yet.
+void beginContacts() {
+  contactCandidates[0] = uvec2(0u);
+  contactBodies[0] = contactBodies[1] = 0u;
+  for (uint k = 0u; k < 3u; ++k) {
+    uint groups = k == 0u ? 0u : 1u;
+    contactCommands[k] = contactCommands[3u + k] = pointCommands[k] = groups;
+  }
+}
+
 void main() {
+  if (gl_LocalInvocationID.x == 0u) beginContacts();
   float dt = bodyStep();
   for (uint n = gl_LocalInvocationID.x; n < params.bodyCount; n += gl_WorkGroupSize.x) {
     BodyRecord b = bodies[n];

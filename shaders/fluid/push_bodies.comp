@@ -1,5 +1,5 @@
 #version 460
-// Moves predicted bodies by the sum of the impulses of their contacts.
+// Moves predicted bodies that are in contact by the sum of the impulses of their contacts.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/pose.glsl"
@@ -8,13 +8,16 @@ layout(local_size_x = kFluidGroup) in;
 layout(std430, binding = 2) buffer SolidBlock { SolidRecord solids[]; };
 layout(std430, binding = 3) buffer BodyBlock { BodyRecord bodies[]; };
 layout(std430, binding = 4) buffer SolidSumsBlock { uint solidSums[]; };
+layout(std430, binding = 5) readonly buffer ContactBodiesBlock { uint contactBodies[]; };
 #include "fluid/predicted_bodies.glsl"
 #include "fluid/solid_sums.glsl"
 
 void main() {
-  uint n = flatInvocation();
+  uint k = flatInvocation();
   float dt = bodyStep();
-  if (n >= params.bodyCount || dt <= 0.0 || bodies[n].held != 0u) return;
+  if (k >= contactBodies[1]) return;
+  uint n = contactBodies[kContactLists + kPointWorkgroups * params.bodyCount + k];
+  if (dt <= 0.0 || bodies[n].held != 0u) return;
   BodyRecord b = bodies[n];
   float components[kLoadComponents];
   for (uint c = 0u; c < kLoadComponents; ++c)

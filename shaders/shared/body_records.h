@@ -22,7 +22,8 @@ struct BodyRecord {
   float inverseXX, inverseYY, inverseZZ, inverseYZ, inverseZX, inverseXY;  // 1/(kg m^2), of the predicted pose, without locked rotations
   uint solid;
   float inertiaXX, inertiaYY, inertiaZZ, inertiaYZ, inertiaZX, inertiaXY;  // kg m^2, about the center of mass, in the solid's frame
-  float unused[2];
+  uint firstPoint;                         // of its ContactPointRecords, which follow one another
+  uint mayTouch;                           // 1: its points were tested in the last substep, so that they may have slips
 };
 RILL_CONST uint kBodyQuads = 13u;  // of a BodyRecord, four words each
 // A body that takes less than this share of a push gives way. What others push is bounded in speed: docs/notes/overlaps.md.
@@ -51,6 +52,11 @@ struct TouchedRecord {
   uint walls;      // 1: it may touch some
   uint solids[kMaxTouched];
 };
+
+// Bodies in the order in which they are found, as words: how many workgroups of points are to be tested, how many bodies are in contact,
+// then two words for each body for the former (see pointWorkgroup), and one for each for the latter.
+RILL_CONST uint kPointWorkgroups = 2u;  // of a body, at most: kMaxContactPoints (engine/shape/contact_points.hpp) over kFluidGroup
+RILL_CONST uint kContactLists = 2u;     // words before the lists
 
 // What a contact point may touch in a substep: a bit for each solid of its body's TouchedRecord, and this one for walls.
 RILL_CONST uint kMayTouchWalls = 1u << kMaxTouched;
