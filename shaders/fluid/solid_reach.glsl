@@ -6,9 +6,8 @@
 // m from a solid within which it has friction.
 float contactReach() { return 1.1 * params.margin; }
 
-// m; of solids but bodies, the next prediction is pushed out, too.
-float reachOf(SolidRecord s) {
-  float next = params.cfl * params.spacing + 1.5 * control.solidSpeed * control.nextStep;
-  return contactReach() + max(3.0 * params.cfl, 0.03) * params.spacing + (s.body == kNoBody ? next : 0.0);
-}
+// m, of bodies; of others, the next prediction is pushed out, too.
+float reachOfBodies() { return contactReach() + max(3.0 * params.cfl, 0.03) * params.spacing; }
+float maxReach() { return reachOfBodies() + (params.cfl * params.spacing + 1.5 * control.solidSpeed * control.nextStep); }
+float reachOf(SolidRecord s) { return s.body == kNoBody ? maxReach() : reachOfBodies(); }
 #endif

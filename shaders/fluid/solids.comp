@@ -50,6 +50,26 @@ float stiffnessOf(uint k, uint body, vec3 gradient, vec3 x) {
   return b.held != 0u ? 0.0 : root * b.stiffness;
 }
 
+// Those of the listed solids that x may be within the support or in reach of, by their bounds along their own axes: CPU drivers execute all
+// of a loop's body for every solid that any lane has.
+NearSolids solidsWithin(NearSolids near, vec3 x) {
+  if (near.all) return near;
+  NearSolids within = near;
+  within.mask = 0u;
+  float limit = max(params.support, maxReach());
+  uint m = 0u, k;
+  bool some = nextSolid(near, m, k);
+  LOOP_WHILE (some) {
+    SolidRecord s = solidAt(k);
+    vec3 half_ = s.shape.kind == kShapeSphere ? vec3(s.shape.halfX) : halfExtents(s.shape), beyond = abs(localPoint(s.pose, x)) - half_;
+    bool mesh = MESHES && s.shape.kind == kShapeMesh;  // a sheet is thicker than its bounds
+    if (mesh || max(beyond.x, max(beyond.y, beyond.z)) < limit) within.mask |= 1u << m;
+    ++m;
+    some = nextSolid(near, m, k);
+  } LOOP_END(some);
+  return within;
+}
+
 void main() {
   uint n = flatInvocation();
   if (n >= sums.nearSolids) return;
@@ -65,8 +85,9 @@ void main() {
   bool more = true;
   LOOP_WHILE (more) {
     vec3 signs, image = imageOf(nextImage(images), x, signs);
+    NearSolids within = solidsWithin(near, image);
     uint m = 0u, k;
-    bool some = nextSolid(near, m, k);
+    bool some = nextSolid(within, m, k);
     LOOP_WHILE (some) {
       SolidRecord s = solidAt(k);
       float distance;
@@ -81,7 +102,7 @@ void main() {
         cover(coverage, solid.w, solid.xyz);
       }
       ++m;
-      some = nextSolid(near, m, k);
+      some = nextSolid(within, m, k);
     } LOOP_END(some);
     more = advance(images);
   } LOOP_END(more);
