@@ -50,7 +50,8 @@ void endSubstep(uint n, BodyRecord b, PoseRecord s) {
 }
 
 void main() {
-  if (push.ends != 0u && gl_LocalInvocationID.x == 0u) contactCommands[0] = contactCommands[3] = pointCommands[0] = 0u;  // until the next substep
+  if (push.ends != 0u && gl_LocalInvocationID.x == 0u)  // until the next substep
+    contactCommands[0] = contactCommands[3] = pointCommands[0] = 0u;
   for (uint n = gl_LocalInvocationID.x; n < params.bodyCount; n += gl_WorkGroupSize.x) {
     BodyRecord b = bodies[n];
     bool moves = b.held == 0u, last = push.ends != 0u;
