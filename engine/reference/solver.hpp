@@ -276,7 +276,7 @@ class ReferenceSolver {
   double blockTime_ = 0;                  ///< s, since the first substep of the last block
   double push_ = 0;                       ///< m^2, of the last correction
   int substepsOfBlock_ = 0;               ///< of the present block, before the present substep
-  double travel_ = 0;                     ///< m that the fastest particle moved since the device built its neighbor list
+  double travel_ = 0;                     ///< m, of the fastest particle since the device built its neighbor list
   double restFactor_ = 0;                 ///< 1: at rest, 0: at motionSpeed or faster
   double fastest_ = 0;                    ///< largest speed, m/s, initially or in the last velocities()
   double squares_ = 0;                    ///< sum of the squares of speeds, m^2/s^2, likewise

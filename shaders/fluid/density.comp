@@ -58,7 +58,7 @@ void storeWork(uint i, float change, float warmNext) {
 // What the last change of the multiplier adds to this one (heavy ball, Polyak 1964), m^2, in a block, where particles keep their places.
 // `scale`: from the last step's terms to the present ones. See docs/notes/momentum.md.
 float momentumOf(uint i, float scale, float stiffness) {
-  if (push.blockStart != 0u || control.nextPhase != kPhaseAdvancing) return 0.0;
+  if (push.blockStart != 0u || control.phase != kPhaseAdvancing || control.nextPhase != kPhaseAdvancing) return 0.0;
   float last = unpackHalf2x16(work[i].w).x / unit * scale, ended = last * stiffness / kMomentumCompression, squared = ended * ended;
   return params.momentum * (1.0 - control.restFraction) * squared / (1.0 + squared) * last;
 }

@@ -108,7 +108,7 @@ TEST_F(DegenerateInputTest, SeparatesManyCoincidentParticles) {
 
 // A block with a hundred times the rest density. A substep moves no particle farther than twice what cfl allows, half a spacing, and may be
 // half as long as the one before: four of them take a particle out of the reach of all others, with at most 2^4 times half a spacing a
-// first step. From then on gravity alone adds to its speed.
+// first step. It has flown apart after the first advance; from then on gravity alone adds to the fastest particle's speed.
 TEST_F(DegenerateInputTest, CompressedBlockStaysInsideAtABoundedSpeed) {
   Trial t = trial();
   setWalls(t, {1, 1, 1});

@@ -88,7 +88,7 @@ TEST_F(RegionsTest, SavingAndGoingOnChangesNothing) { expectSavingChangesNothing
 // The tap raises the level by most of a layer, so slowly that hardly anything moves: pressure has to wake what sleeps.
 TEST_F(RegionsTest, MatchesRunWithoutSleep) { expectEndWithoutSleep(channel(), partlyAsleep()); }
 
-// Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own.
+// Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own: of eight layers, some.
 TEST_F(RegionsTest, TapWakesItsOwnEndOfAFluidThatSlept) {
   const Trial t = channel(8);
   auto run = start(t);
