@@ -50,8 +50,8 @@ float stiffnessOf(uint k, uint body, vec3 gradient, vec3 x) {
   return b.held != 0u ? 0.0 : root * b.stiffness;
 }
 
-// Those of the listed solids that x may be within the support or in reach of, by their bounds along their own axes: CPU drivers execute all
-// of a loop's body for every solid that any lane has.
+// The listed solids whose bounding box along their own axes is within the support or the reach of x. CPU drivers execute all of a loop's
+// body for every solid that any lane has.
 NearSolids solidsWithin(NearSolids near, vec3 x) {
   if (near.all) return near;
   NearSolids within = near;

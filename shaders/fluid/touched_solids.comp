@@ -1,6 +1,6 @@
 #version 460
-// The solids that each body may touch in the substep at hand: those whose surface its bounding sphere reaches and whose bounding box its
-// own one does. Lists the bodies whose contact points are to be tested.
+// The solids that each body may touch in the substep at hand: those whose surface its bounding sphere reaches, and
+// whose bounding box its own box reaches. Lists the bodies whose contact points are to be tested.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/arrays.glsl"
@@ -25,7 +25,7 @@ const uint kMaxNear = 4u * kMaxTouched;
 vec3 boundsOf(SolidRecord s) { return s.shape.kind == kShapeSphere ? vec3(s.shape.halfX) : halfExtents(s.shape); }
 vec3 middleOf(SolidRecord s) { return centerOf(s.pose) + (MESHES ? toScene(s.pose, middleOf(s.shape)) : vec3(0.0)); }
 
-// The same of a bounding box along the axes of the scene, and along those of a.
+// Half extents of the bounding box of s along the axes of the scene, and, below, along those of a.
 vec3 alongScene(SolidRecord s) {
   vec3 b = boundsOf(s);
   if (s.shape.kind == kShapeSphere) return b;
