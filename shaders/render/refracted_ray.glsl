@@ -148,7 +148,7 @@ RayEnd refractedRay(vec2 middle, vec3 from, vec3 bent, Leaving leaving) {
   const float z = edge ? before : rayDepth(ray, part);
   const vec2 pixel = rayPixel(ray, part), to_border = min(pixel, pictureSize() - pixel);
   const float in_fluid = part < 1.0 ? (z - from.z) / max(bent.z, 0.1) : mix(leaving.straight, leaving.inside, leaving.bends);
-  const bool met = beyond <= rayDepth(ray, last);
+  const bool met = beyond < far && beyond <= rayDepth(ray, last);
   const float outside = met ? 0.0 : leaving.bends * (1.0 - smoothstep(0.0, kBorder, min(to_border.x, to_border.y) / float(view.height)));
   return RayEnd(pixel, max(edge ? 0.5 * (before + beyond) : from.z, from.z), in_fluid, outside);
 }

@@ -1,5 +1,6 @@
 #version 460
-// Sky, and the ground: inside the domain a checker or the floor of a tank, outside plain and hazy far away. SKY: no ground.
+// Sky, and the ground: inside the domain a checker or the floor of a tank; outside plain and hazy far away, or an environment's. SKY: no
+// ground.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "views/particle_records.h"

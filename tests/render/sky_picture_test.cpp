@@ -75,11 +75,11 @@ TEST(SkyPicture, DayIsBlueAboveAndWhiteAtTheHorizon) {
   for (const double turn : {0.0, 60.0, 120.0, 180.0}) {
     for (const double elevation : {0.5, 1.0, 2.0, 4.0, 8.0, 20.0}) {
       // Clear skies that were measured lie on the locus or little above it (Hernandez-Andres et al. 2001).
-      EXPECT_NEAR(aboveDaylight(seen(*sky, elevation, turn, kDaySun)), 0.004, 0.007) << elevation << " " << turn;
+      EXPECT_NEAR(aboveDaylight(seen(*sky, elevation, turn, kDaySun)), 0.006, 0.005) << elevation << " " << turn;
     }
     const Rgb low = seen(*sky, 1, turn, kDaySun);
     EXPECT_GT(luminanceOf(low), 1.3 * luminanceOf(zenith)) << turn;
-    EXPECT_LT(low[2], 1.75 * low[0]) << "white at " << turn;
+    EXPECT_LT(low[2], 1.6 * low[0]) << "white at " << turn;
     if (turn > 0) { EXPECT_LT(luminanceOf(seen(*sky, 20, turn, kDaySun)), luminanceOf(low)) << turn; }
   }
 }

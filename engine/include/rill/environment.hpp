@@ -41,7 +41,7 @@ struct EnvironmentSun {
 /// sky's light. Empty for an overcast sky, for most pictures in sRGB, whose sun is clipped, and for an invalid picture.
 RILL_API std::optional<EnvironmentSun> findSun(const EnvironmentPicture& picture);
 
-/// A scene's `look.sky` as an environment: day or sunset, clear skies after Hillaire (2020) over a sea with the sun's disc, exposed for a
+/// A scene's `look.sky` as an environment: day or sunset, clear skies with the sun's disc after Hillaire (2020), over a sea, exposed for a
 /// filmic tone curve. White ground has the radiance 1.9 by day and 0.35 at sunset. Empty for `studio`, the sky without an environment, and
 /// for an unknown name.
 RILL_API std::optional<EnvironmentPicture> skyPicture(std::string_view name);
