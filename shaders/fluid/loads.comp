@@ -86,8 +86,9 @@ void addToSums(uint k, Reaction r, bool mine) {
     if (CLUSTER > 4u) sum[c] += subgroupShuffleXor(sum[c], 4u);  // a loop would leave the sums in memory
     if (CLUSTER > 8u) sum[c] += subgroupShuffleXor(sum[c], 8u);
     if (CLUSTER > 16u) sum[c] += subgroupShuffleXor(sum[c], 16u);
-    if ((gl_SubgroupInvocationID & (CLUSTER - 1u)) < 4u) addWide(k * kSolidSumWords + 2u * (first + c), sum[c].x, uint(sum[c].y));
   }
+  if ((gl_SubgroupInvocationID & (CLUSTER - 1u)) < 4u)
+    for (uint c = 0u; c < kSums / 4u; ++c) addWide(k * kSolidSumWords + 2u * (first + c), sum[c].x, uint(sum[c].y));
 }
 
 void main() {

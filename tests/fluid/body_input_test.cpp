@@ -1,5 +1,6 @@
 // Rigid bodies from snapshots and from degenerate input.
 #include <bit>
+#include <cstring>
 #include <stdexcept>
 
 #include "fluid/bodies_fixture.hpp"
@@ -22,6 +23,33 @@ TEST_F(BodiesTest, GoOnFromASnapshotBitForBit) {
     EXPECT_EQ(one.bodies, two.bodies);
     EXPECT_EQ(one.slips, two.slips);
   }
+}
+
+size_t slipsOf(const FluidSnapshot& s) {
+  size_t partners = 0;
+  for (size_t word = 0; word < s.slips.size(); word += kSlipWords) partners += s.slips[word] != 0;
+  return partners;
+}
+
+// Points that may touch nothing are not tested, but for once after they may have touched something.
+TEST_F(BodiesTest, EndTheSlipsOfWhatASnapshotHasLifted) {
+  Trial t = trial();
+  t.capacity = 1;
+  setWalls(t, {2, 2, 1});
+  t.scene.solids = {crate({0.5, 0.15, 0.5}, 0.3)};
+  t.step = 2e-3;
+  auto run = start(t);
+  run->substeps(20);
+  FluidSnapshot lifted = run->saved();
+  ASSERT_GT(slipsOf(lifted), 0u);
+  BodyRecord body;
+  std::memcpy(&body, lifted.bodies.data(), sizeof body);
+  EXPECT_EQ(body.mayTouch, 1u);
+  body.state.centerY += 1;
+  std::memcpy(lifted.bodies.data(), &body, sizeof body);
+  auto flying = start(t, &lifted);
+  flying->substeps(1);
+  EXPECT_EQ(slipsOf(flying->saved()), 0u);
 }
 
 TEST_F(BodiesTest, RejectSnapshotsThatAreNotFinite) {
