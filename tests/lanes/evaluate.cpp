@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -161,6 +162,10 @@ bool evaluate(const Program& program, const Instruction& instruction, std::span<
       const uint32_t number = operands[1];
       if (number == GLSLstd450PackHalf2x16) {
         out[0] = half(operand(2, 0)) | half(operand(2, 1)) << 16;
+        return true;
+      }
+      if (number == GLSLstd450UnpackHalf2x16) {
+        for (uint32_t k = 0; k < 2; ++k) out[k] = u(glm::unpackHalf1x16(static_cast<uint16_t>(operand(2, 0) >> (16 * k))));
         return true;
       }
       if (number == GLSLstd450Length) {

@@ -111,7 +111,8 @@ Outcome walk(const WalkScene& scene, const EmbeddedShader& shader, uint32_t subg
   control.step = control.nextStep = control.warmStep = 0.001f;
   control.relaxation = control.nextRelaxation = 0.5f;
   Memory memory;
-  memory.push = wordsOf(ChunkPush{0, scene.count(), 0});
+  memory.push =
+      wordsOf(DensityPush{.first = 0, .last = scene.count(), .iteration = 0, .parity = 0, .blockStart = 0});  // begins as ChunkPush
   std::vector<uint32_t> particles(scene.particles.size() * 4);
   std::memcpy(particles.data(), scene.particles.data(), particles.size() * 4);
   for (uint32_t k = 0; k < shader.bindings.size(); ++k) {
