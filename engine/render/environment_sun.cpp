@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "core/vector_math.hpp"
 #include "render/environment_texels.hpp"
 
 namespace rill {
@@ -13,8 +14,6 @@ constexpr double kMaxDisc_rad = 0.17;    // a brighter region that is larger is 
 constexpr double kBrighterThanSky = 8;   // times the mean of the upper half: lowest radiance that counts as sun
 constexpr double kDimmestOfDisc = 4e-3;  // times the brightest texel: rims and bloom
 constexpr double kLeastLight = 0.1;      // of the sky's irradiance
-
-double dotOf(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 struct SunRegion {
   std::vector<uint32_t> texels;  // indices
@@ -41,7 +40,7 @@ SunRegion growSun(const EnvironmentPicture& picture, uint32_t peak, double thres
         if (!seen.insert(at).second) continue;
         const Double3 color = unpackTexel(picture.texels[at]);
         if (luminance(color) > threshold) {
-          if (dotOf(direction(at), center) < farthest) {
+          if (dot(direction(at), center) < farthest) {
             region.tooLarge = true;
             return region;
           }
@@ -97,7 +96,7 @@ std::optional<EnvironmentSun> takeSun(EnvironmentPicture& picture) {
     sum += angle * excess;
     squares += angle * excess * excess;
   }
-  const double size = std::sqrt(dotOf(toward, toward));
+  const double size = length(toward);
   if (!(sum > kLeastLight * (sky - sum)) || !(size > 0) || !(toward.y > 0)) return std::nullopt;
   for (const uint32_t at : region.texels) picture.texels[at] = base;
   EnvironmentSun sun;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/look_names.hpp"
+#include "core/vector_math.hpp"
 #include "render/atmosphere.hpp"
 #include "render/environment_texels.hpp"
 #include "rill/environment.hpp"
@@ -84,7 +85,7 @@ class Sea {
     const double turn = std::abs(std::remainder(std::atan2(to.z, to.x) - azimuth_, 2 * kPi)), down = std::asin(std::clamp(-to.y, 0.0, 1.0));
     const auto light = mirrored_(turn / kPi, std::sqrt(down / (kPi / 2)));
     // The slopes that mirror the sun
-    const Double3 between = unit({sun_.x - to.x, sun_.y - to.y, sun_.z - to.z});
+    const Double3 between = normalized(minus(sun_, to));
     const double square = (between.x * between.x + between.z * between.z) / (between.y * between.y);
     const double density = std::exp(-square / kSlopes) / (kPi * kSlopes);
     const double glint = fresnel(-dot(between, to)) * density / (4 * light[3] * std::pow(between.y, 4));
@@ -94,11 +95,6 @@ class Sea {
   }
 
  private:
-  static double dot(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-  static Double3 unit(const Double3& v) {
-    const double size = std::sqrt(dot(v, v));
-    return {v.x / size, v.y / size, v.z / size};
-  }
   static double fresnel(double cosine) { return 0.02 + 0.98 * std::pow(1 - std::clamp(cosine, 0.0, 1.0), 5); }
 
   /// Of the sky, and the area of the waves that is seen over that of the sea, from below the horizon on the other side of `eye`, where the
@@ -110,7 +106,7 @@ class Sea {
     for (int j = -2; j <= 2; ++j)
       for (int i = -2; i <= 2; ++i) {
         const double share = std::exp(-0.5 * (i * i + j * j)), deviation = std::sqrt(kSlopes / 2);
-        const Double3 normal = unit({i * deviation, 1, j * deviation});
+        const Double3 normal = normalized({i * deviation, 1, j * deviation});
         const double cosine = dot(normal, eye), seen = share * std::max(cosine, 0.0) / normal.y;
         shares += share;
         if (!(seen > 0)) continue;
@@ -138,7 +134,7 @@ double covered(uint32_t x, uint32_t y, const Double3& sun) {
   for (int v = 0; v < kSamples; ++v)
     for (int u = 0; u < kSamples; ++u) {
       const Double3 d = mapDirection(x + (u + 0.5) / kSamples, y + (v + 0.5) / kSamples, 2 * kSkyRows, kSkyRows);
-      inside += d.x * sun.x + d.y * sun.y + d.z * sun.z > edge;
+      inside += dot(d, sun) > edge;
     }
   return double(inside) / (kSamples * kSamples);
 }
@@ -150,9 +146,7 @@ std::span<const std::string_view> skies() { return kSkyNames; }
 std::optional<EnvironmentPicture> skyPicture(std::string_view name) {
   const auto* found = std::ranges::find(kSkies, name, &Sky::name);
   if (found == std::end(kSkies)) return std::nullopt;
-  const Double3& to = found->toSun;
-  const double size = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
-  const Double3 sun = {to.x / size, to.y / size, to.z / size};
+  const Double3 sun = normalized(found->toSun);
   const Atmosphere air(found->aerosolDepth, kSeaAlbedo);
   const ClearSky sky(air, sun);
   constexpr uint32_t rows = kSkyRows, columns = 2 * rows;
@@ -176,7 +170,7 @@ std::optional<EnvironmentPicture> skyPicture(std::string_view name) {
       if (y < rows / 2) {
         color = colors[size_t{y} * columns + x];
         const Double3 d = mapDirection(x + 0.5, y + 0.5, columns, rows);
-        const bool near = d.x * sun.x + d.y * sun.y + d.z * sun.z > std::cos(kSunRadius + 2 * kPi / rows);
+        const bool near = dot(d, sun) > std::cos(kSunRadius + 2 * kPi / rows);
         const double part = near ? covered(x, y, sun) / disc : 0;
         for (int c = 0; c < 3; ++c) color[c] += part * direct[c];
       } else {
