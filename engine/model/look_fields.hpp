@@ -27,8 +27,9 @@ struct Table<Look> {
                  .since = "0.2"},
             &Look::sky},
       Field{Info{.key = "stage",
-                 .help = "around the fluid in the view final: grid, the edges of the domain on a checkered floor, or tank, its closed "
-                         "sides as panes of glass around a pale floor, on a dark table",
+                 .help =
+                     "around the fluid in the view final: grid, the edges of the domain on a checkered floor, or tank, its closed "
+                     "sides as panes of glass around a pale floor, on a table: dark in the studio, of stone above a sea under clear skies",
                  .words = kStageNames,
                  .since = "0.2"},
             &Look::stage},

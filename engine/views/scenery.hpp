@@ -43,7 +43,7 @@ class Scenery {
 
   bool hasGround() const { return hasDomain() && (buffers_.host.scene.counts.w & 4u) != 0; }  // a floor that is closed
   bool hasDomain() const { return buffers_.host.scene.domain_min.w > 0; }
-  bool hasEdges() const { return hasDomain() && !tank_; }
+  bool hasEdges() const { return hasDomain() && buffers_.host.scene.domain_max.w > 0; }  // a tank has no grid
   bool hasMeshes() const { return !meshes_.empty(); }
 
   // scenery_light.cpp
@@ -66,7 +66,7 @@ class Scenery {
   std::vector<FluidBody> fluids_;  ///< of a scene with several; otherwise empty
   SceneBuffers buffers_;
   SceneMeshes meshes_;
-  std::optional<GlassTank> tank_;  ///< with look.stage tank
+  std::optional<GlassTank> tank_;  ///< with look.stage tank, unless all sides are open
   bool hasRayCast_ = false;        ///< there are solids that are not drawn as triangles
   SurfaceStage stage_;
   std::optional<Caustics> caustics_;  ///< where the scene has them and something to fall on

@@ -10,6 +10,13 @@ namespace {
 
 constexpr Double3 kBehindTank = {-0.5, 0.9, -0.65};  // the studio's light: light through the fluid falls on the table before the tank
 
+/// The table that a tank stands on above the sea of a clear sky.
+void addTable(particle_view::SceneRecord& scene) {
+  const float size = std::max(scene.domain_max.x - scene.domain_min.x, scene.domain_max.z - scene.domain_min.z);
+  scene.light_texel.z = 0.15f * size;
+  scene.light_texel.w = 0.05f * size;
+}
+
 }  // namespace
 
 Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& scene, const ParticleSet& particles,
@@ -21,14 +28,18 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     const Float3& to = environment->sun()->direction;
     toSun = {to.x, to.y, to.z};
   }
-  if (scene.look.stage == "tank" && scene.domain) {
+  const bool tank = scene.look.stage == "tank" && scene.domain;
+  if (tank) {
     auto glass = GlassTank::create(device, *scene.domain, particles.origin, formats, environment != nullptr);
     if (!glass) return glass.error();
     out->tank_ = *std::move(glass);
   }
-  if (out->tank_ && !environment) toSun = kBehindTank;
+  if (tank && !environment) toSun = kBehindTank;
   ParticleScene host = particleScene(scene, particles, toSun);
-  if (out->tank_) host.scene.domain_max.w = 0;  // no grid
+  if (tank) {
+    host.scene.domain_max.w = 0;
+    if (environment && scene.look.sky != "studio" && scene.look.environment.empty()) addTable(host.scene);
+  }
   auto buffers = SceneBuffers::create(device, std::move(host));
   if (!buffers) return buffers.error();
   out->buffers_ = *std::move(buffers);

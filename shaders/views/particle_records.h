@@ -80,12 +80,12 @@ struct ViewPush {
 // Constant over a view's lifetime.
 struct SceneRecord {
   vec4 domain_min;   // w: 1 if there is a domain
-  vec4 domain_max;   // w: spacing of the floor's grid lines
+  vec4 domain_max;   // w: spacing of the floor's grid lines; 0: it is the floor of a tank
   uvec4 counts;      // solids, light map width, light map height, closed sides (bits -x +x -y +y -z +z)
   vec4 light_u;      // axis; w: coordinate of the light map's first texel center
   vec4 light_v;
   vec4 light_to;     // direction to the light; w: coordinate of the plane where light depth is 0
-  vec4 light_texel;  // x: size of a texel, y: range of light depths
+  vec4 light_texel;  // x: size of a texel, y: range of depths; z: how far a table reaches beyond a tank, 0: no table; w: its thickness
   vec4 asleep;       // linear RGB of particles asleep, by speed; w: 1 if the fluid may sleep
   vec4 colors[2 * kColors];  // linear RGB: by speed, by compression
   vec4 fluids[kViewFluids];  // linear RGB of each fluid

@@ -1,6 +1,6 @@
 #version 460
-// Sky, and the ground: inside the domain a checker or the floor of a tank; outside plain and hazy far away, or an environment's. SKY: no
-// ground.
+// Sky, and the ground: inside the domain a checker or the floor of a tank; outside plain and hazy far away, or an environment's, or a table
+// above it. SKY: no ground.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
 #include "views/particle_records.h"
@@ -51,21 +51,42 @@ vec3 groundAlbedo(bool tank) { return tank ? vec3(0.075, 0.078, 0.085) : vec3(0.
 
 const vec3 kTankFloor = vec3(0.66, 0.65, 0.62);  // albedo
 
+#if defined(ENVIRONMENT) && !defined(SKY)
+const vec3 kTable = vec3(0.40, 0.38, 0.35);  // albedo of a table of stone
+
+// Where a ray meets the table that a tank stands on, in lengths of the ray; 0: nowhere. `normal` is that of the side it meets.
+float tableHit(vec3 from, vec3 ray, out vec3 normal) {
+  const float beyond = scene.light_texel.z;
+  const vec3 low = scene.domain_min.xyz - vec3(beyond, scene.light_texel.w, beyond);
+  const vec3 high = vec3(scene.domain_max.x + beyond, scene.domain_min.y, scene.domain_max.z + beyond);
+  const vec3 slope = mix(vec3(1e-12), ray, greaterThan(abs(ray), vec3(1e-12)));
+  const vec3 a = (low - from) / slope, b = (high - from) / slope, entry = min(a, b), leave = max(a, b);
+  const float first = max(max(entry.x, entry.y), entry.z), last = min(min(leave.x, leave.y), leave.z);
+  normal = -sign(slope) * vec3(greaterThanEqual(entry, vec3(first)));
+  return first < last ? first : 0.0;
+}
+#endif
+
 void main() {
   const vec2 middle = gl_FragCoord.xy - vec2(view.left, view.top), axis = axisOf(middle);
   const vec3 ray = worldDirection(rayAlong(axis)), sight = normalize(ray);
   color = vec4(backdrop(sight), 1.0);
   gl_FragDepth = clamp(view.depth_map[0], 0.0, 1.0);  // as far as a perspective goes
 #ifndef SKY
-  if (ray.y >= 0.0) return;
   const vec3 from = worldPoint(rayFrom(axis)), sun = scene.light_to.xyz;
-  const float z = (scene.domain_min.y - from.y) / ray.y;
+  vec3 normal = vec3(0.0, 1.0, 0.0);
+  float z = ray.y < 0.0 ? (scene.domain_min.y - from.y) / ray.y : 0.0;
+#ifdef ENVIRONMENT
+  const bool table = scene.light_texel.z > 0.0;
+  if (table) z = tableHit(from, ray, normal);
+#endif
   if (!(z > view.near_depth)) return;
   const vec3 p = from + z * ray;
   // How far the hit moves from a pixel to the next.
   const float pixel = metersAPixel(z);
   const vec3 across = worldDirection(vec3(pixel, 0.0, 0.0)), upwards = worldDirection(vec3(0.0, pixel, 0.0));
-  const vec2 right = across.xz - ray.xz * (across.y / ray.y), up = upwards.xz - ray.xz * (upwards.y / ray.y);
+  const float down = min(ray.y, -1e-6);
+  const vec2 right = across.xz - ray.xz * (across.y / down), up = upwards.xz - ray.xz * (upwards.y / down);
   const vec2 width = abs(right) + abs(up);
   const vec2 extent = scene.domain_max.xz - scene.domain_min.xz;
   const vec2 inner = p.xz - scene.domain_min.xz;
@@ -75,12 +96,15 @@ void main() {
   vec3 albedo = kTankFloor;
   if (inside && !tank) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
   const float bias = 2.0 * scene.light_texel.x;
-  const vec3 direct = reaching(sunlight() * max(sun.y, 0.0), p, bias, 0.5 * (width.x + width.y), false);
-  const vec3 ambient = kAmbientShare * skyLight(vec3(0.0, 1.0, 0.0));
+  const float facing = max(dot(sun, normal), 0.0);
+  vec3 direct = vec3(0.0);
+  if (facing > 0.0) direct = reaching(sunlight() * facing, p, bias, 0.5 * (width.x + width.y), false);
+  const vec3 ambient = kAmbientShare * skyLight(normal);
 #ifdef ENVIRONMENT
   // The picture has a ground of its own: shadows and caustics change it by as much as they do the light.
   const vec3 unshadowed = ambient + kSunShare * sunlight() * max(sun.y, 0.0), light = ambient + kSunShare * direct;
-  color = vec4(inside ? albedo * light : color.rgb * light / max(unshadowed, vec3(1e-6)), 1.0);
+  if (table && !inside) albedo = kTable;
+  color = vec4(inside || table ? albedo * light : color.rgb * light / max(unshadowed, vec3(1e-6)), 1.0);
 #else
   const vec3 lit = (inside ? albedo : groundAlbedo(tank)) * (ambient + kSunShare * direct);
   const float far = length(beyond) / (1.4 * max(max(extent.x, extent.y), 1e-6));
