@@ -45,6 +45,7 @@ for ((i = 0; i < $#; i++)); do
   esac
 done
 
+look=(rill=0.2 look.sky=day look.stage=tank look.whitewater=true look.caustics=true)
 phase "Simulating and rendering dam-break"
-build/release/apps/capture/rill-capture dam-break "$@"
+build/release/apps/capture/rill-capture dam-break --set "${look[@]}" "$@"
 if [ $images = yes ]; then phase "Images are in $out"; else phase "Done"; fi
