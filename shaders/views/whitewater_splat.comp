@@ -19,6 +19,7 @@ layout(std430, set = 0, binding = 7) buffer Dots { uint dots[]; };
 
 const float kSizes[3] = float[3](0.6, 1.6, 1.2);       // of spray, foam and bubbles, over the parcel's
 const float kOpacities[3] = float[3](0.9, 0.3, 0.2);   // optical depth in the middle
+const float kWhiteMostArea = 6.0;                      // over the mean
 const float kLeastLength = 0.05;                       // radii; shorter streaks are dots
 
 float rounding = 0.5;
@@ -75,6 +76,9 @@ ivec2 columnsOf(Streak s, float row) {
   return ivec2(max(int(floor(first)), 0), min(int(floor(last)), int(view.width) - 1));
 }
 
+// Over the mean of its class: areas are distributed exponentially, as drops and bubbles are of many sizes.
+float sizeOf(uint tag) { return sqrt(min(-log((float(tag >> 8u & 0xffffu) + 0.5) / 65536.0), kWhiteMostArea)); }
+
 void main() {
   const uint k = groupIndex() * kWhiteSplatGroup + gl_LocalInvocationIndex;
   if (k >= counts[kWhiteCount]) return;
@@ -83,7 +87,7 @@ void main() {
   const float z = viewPoint(x).z;
   if (!(z > nearestDrawn())) return;
   // Dots smaller than a pixel keep their light
-  const float wide = kSizes[kind] * exposure.size / metersAPixel(z), radius = clamp(wide, 1.0, kWhiteMaxPixels);
+  const float wide = kSizes[kind] * sizeOf(motion[k].w) * exposure.size / metersAPixel(z), radius = clamp(wide, 1.0, kWhiteMaxPixels);
   const float opacity = kOpacities[kind] * min(wide * wide, 1.0);
   const Streak s = streakOf(x, kind == kWhiteSpray ? pathOf(x, uintBitsToFloat(motion[k].xyz)) : vec3(0.0), radius);
   if (!all(lessThan(abs(s.middle), vec2(1e6)))) return;

@@ -22,9 +22,13 @@ namespace whitewater_view_test {
 constexpr uint32_t kWidth = 320, kHeight = 240;
 constexpr float kSpacing = 0.1f;
 
+/// Random bits of a parcel of mean size: exp(-1) of 2^16 in the middle, and rounding by a half.
+constexpr uint32_t kMeanBits = 0x80000000u | uint32_t(0.36788 * 65536) << 8;
+
 struct Parcel {
   Float3 position, velocity;
   uint32_t kind = kWhiteSpray;
+  uint32_t bits = kMeanBits;
 };
 
 /// Optical depth of the pixels before the fluid: its sum, mean position and second moments about it, in pixels.
@@ -64,11 +68,10 @@ class WhitewaterViewTest : public GpuTest {
                              const std::vector<float>& scene = std::vector<float>(kWidth * kHeight, 1e9f)) {
     std::vector<Float4> places;
     std::vector<std::array<uint32_t, 4>> motions;
-    std::mt19937 random(1);
     for (const Parcel& p : parcels) {
       places.push_back({p.position.x, p.position.y, p.position.z, 0});
       motions.push_back({std::bit_cast<uint32_t>(p.velocity.x), std::bit_cast<uint32_t>(p.velocity.y),
-                         std::bit_cast<uint32_t>(p.velocity.z), uint32_t(random()) << 2 | p.kind});
+                         std::bit_cast<uint32_t>(p.velocity.z), (p.bits & ~3u) | p.kind});
     }
     std::vector<uint32_t> counts(kWhiteCountWords);
     counts[kWhiteCount] = uint32_t(parcels.size());
@@ -156,9 +159,10 @@ TEST_F(WhitewaterViewTest, ParallelRaysAndReversedDepthShowTheSameStreaks) {
 TEST_F(WhitewaterViewTest, DimStreaksOfManyDropsKeepTheirLight) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> in(-0.8f, 0.8f), speed(-8, 8);
+  std::uniform_int_distribution<uint32_t> bits;
   std::vector<Parcel> moving;
   for (int k = 0; k < 4000; ++k)
-    moving.push_back({{in(random), 1 + in(random), in(random)}, {speed(random), speed(random), speed(random)}});
+    moving.push_back({{in(random), 1 + in(random), in(random)}, {speed(random), speed(random), speed(random)}, kWhiteSpray, bits(random)});
   std::vector<Parcel> still = moving;
   for (Parcel& p : still) p.velocity = {0, 0, 0};
   const WhitewaterExposure exposure{.size = 0.002, .seconds = 0.02};  // a fifteenth of a pixel
@@ -166,6 +170,22 @@ TEST_F(WhitewaterViewTest, DimStreaksOfManyDropsKeepTheirLight) {
   const auto got = dots(moving, exposure, camera());
   EXPECT_NEAR(momentsOf(got).light, expected, 0.02 * expected);
   EXPECT_EQ(got, dots(moving, exposure, camera())) << "bits are equal from run to run";
+}
+
+TEST_F(WhitewaterViewTest, SizesDifferAndKeepTheMeanLight) {
+  std::mt19937 random(3);
+  std::uniform_int_distribution<uint32_t> bits;
+  const WhitewaterExposure exposure{.size = 0.07};
+  for (const uint32_t kind : {kWhiteSpray, kWhiteFoam, kWhiteBubble}) {
+    const auto light = [&](const std::vector<Parcel>& parcels) { return momentsOf(dots(parcels, exposure, camera())).light; };
+    const double mean = light({{{0, 1, 0}, {}, kind}});
+    std::vector<Parcel> many;
+    for (int k = 0; k < 4000; ++k) many.push_back({{0, 1, 0}, {}, kind, bits(random)});
+    // Areas have an exponential distribution, cut at six times their mean.
+    EXPECT_NEAR(light(many), 4000 * mean * (1 - std::exp(-6)), 0.05 * 4000 * mean);
+    EXPECT_NEAR(light({{{0, 1, 0}, {}, kind, uint32_t(std::exp(-4) * 65536) << 8}}), 4 * mean, 0.05 * 4 * mean);
+    EXPECT_NEAR(light({{{0, 1, 0}, {}, kind, uint32_t(std::exp(-0.25) * 65536) << 8}}), 0.25 * mean, 0.15 * 0.25 * mean);
+  }
 }
 
 TEST_F(WhitewaterViewTest, StreaksAreBounded) {
