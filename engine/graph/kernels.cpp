@@ -19,7 +19,7 @@ bool kindMatchesUse(BindingKind kind, bool isImage, Use use, bool draws) {
     case BindingKind::TexelUint:
     case BindingKind::TexelUint2:
     case BindingKind::TexelUint4:
-      return !draws && use == Use::ComputeTexel;
+      return use == (draws ? Use::DrawTexel : Use::ComputeTexel);
     case BindingKind::SampledImage:
       return use == (draws ? Use::DrawSampled : Use::ComputeSampled);
   }

@@ -43,7 +43,7 @@ constexpr Use useOf(const ShaderBinding& binding, bool draws = false) {
     case BindingKind::TexelUint:
     case BindingKind::TexelUint2:
     case BindingKind::TexelUint4:
-      return Use::ComputeTexel;
+      return draws ? Use::DrawTexel : Use::ComputeTexel;
     case BindingKind::SampledImage:
       return draws ? Use::DrawSampled : Use::ComputeSampled;
     default:

@@ -38,6 +38,7 @@ constexpr std::array<UseRow, kUseCount> kTable{{
     {Use::ComputeWrite, "ComputeWrite", kCompute, kStorageRead, kStorageWrite, kGeneral, VK_IMAGE_USAGE_STORAGE_BIT, kStorageBuffer},
     {Use::ComputeAtomic, "ComputeAtomic", kCompute, kStorageRead, kStorageWrite, kNoImage, 0, kStorageBuffer},
     {Use::DrawRead, "DrawRead", kDraw, kStorageRead, 0, kNoImage, 0, kStorageBuffer},
+    {Use::DrawTexel, "DrawTexel", kDraw, kSampledRead, 0, kNoImage, 0, kTexelBuffer},
     {Use::DrawUniform, "DrawUniform", kDraw, kUniformRead, 0, kNoImage, 0, kUniformBuffer},
     {Use::DrawSampled, "DrawSampled", kDraw, kSampledRead, 0, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0},
     {Use::VertexInput, "VertexInput", VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, kVertexRead, 0, kNoImage, 0, kVertexBuffer},

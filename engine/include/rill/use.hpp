@@ -25,6 +25,7 @@ enum class Use : uint8_t {
   ComputeWrite,    ///< storage buffer or image, read and written
   ComputeAtomic,   ///< storage buffer, commutative atomics whose results are unused: no barrier between two such passes
   DrawRead,        ///< storage buffer, read by vertex and fragment shaders
+  DrawTexel,       ///< uniform texel buffer, read by vertex and fragment shaders
   DrawUniform,     ///< uniform buffer, read by vertex and fragment shaders
   DrawSampled,     ///< image, read by vertex and fragment shaders; as ComputeSampled
   VertexInput,     ///< vertex or index buffer of draws recorded by the host (Commands::handle)
