@@ -4,8 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "gpu/device_impl.hpp"
+#include "gpu/shader_constants.hpp"
+#include "gpu/texel_reads.hpp"
 #include "graph/import_whole.hpp"
 #include "graph/shader_pass.hpp"
 
@@ -53,11 +56,12 @@ Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, const S
   auto made = std::make_unique<WindowPass>();
   const VkFormat colors[] = {format.canvas};
   implOf(device).shaders.add(viewShaders());
-  auto ui = graphicsPipeline(device,
-                             {.vertex = "view/ui_vertex", .fragment = "view/ui_fragment", .colors = colors, .blend = Blend::Premultiplied});
+  const auto variant = [&](const char* shader) { return shaderVariant(device, shader, "_texel", usesTexelReads(device)); };
+  const std::string uiFragment = variant("view/ui_fragment"), pictureFragment = variant("view/picture_fragment");
+  auto ui = graphicsPipeline(device, {.vertex = "view/ui_vertex", .fragment = uiFragment, .colors = colors, .blend = Blend::Premultiplied});
   if (!ui) return ui.error();
   made->ui_ = *ui;
-  auto picture = graphicsPipeline(device, {.vertex = "view/picture_vertex", .fragment = "view/picture_fragment", .colors = colors});
+  auto picture = graphicsPipeline(device, {.vertex = "view/picture_vertex", .fragment = pictureFragment, .colors = colors});
   if (!picture) return picture.error();
   made->picture_ = *picture;
   if (!format.isCanvas()) {

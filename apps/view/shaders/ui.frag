@@ -1,6 +1,8 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
 // The vertex color times the coverage from the font atlas (one byte per texel), with bilinear filtering.
-layout(std430, set = 0, binding = 2) readonly buffer Font { uint font[]; };
+#include "shared/arrays.glsl"
+READ_UINT(2, font)
 layout(push_constant) uniform Push {
   vec2 clipMin, clipSize;
   uint firstIndex;
@@ -13,7 +15,7 @@ layout(location = 0) out vec4 result;
 float coverage(ivec2 at) {
   const uvec2 inside = uvec2(clamp(at, ivec2(0), ivec2(fontWidth, fontHeight) - 1));
   const uint index = inside.y * fontWidth + inside.x;
-  return float(font[index >> 2] >> 8 * (index & 3u) & 255u) / 255.0;
+  return float(fontAt(index >> 2) >> 8 * (index & 3u) & 255u) / 255.0;
 }
 
 void main() {
