@@ -222,13 +222,12 @@ ImageRef Painter::addLight(Graph& graph, const FluidState& fluid, const FluidVie
   const BufferRef environment = renderer.environment ? renderer.environment->addTo(graph) : BufferRef{};
   targets = scenery_->addTo(graph, fluid, targets, seen, look_, time_s, environment);
   const bool foams = whitewater_ && white.state.room > 0 && fluid.capacity > 0;
-  const BufferRef behind = foams ? whitewater_->addScene(graph, targets.depth, renderer.camera(fluid, seen)) : BufferRef{};
   FluidLook look = look_;
   if (foams) look.aeration = 0;  // whitewater comes in its place
   targets = renderer.addTo(graph, fluid, targets, seen, look, true, environment);
   if (foams)
     targets = whitewater_->addTo(graph,
-                                 {white.state, fluid.origin, behind, renderer.last.pixels,
+                                 {white.state, fluid.origin, renderer.lastScene.depth, renderer.last.pixels,
                                   addLook(graph, lookRecord(look_, renderer.last.push, renderer.environment.get()))},
                                  targets, renderer.last.push, environment, exposure(white.size));
   targets =

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gpu/module_pipelines.hpp"
+#include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
 #include "render/particle_count.hpp"
 #include "sort/dispatches.hpp"
@@ -61,16 +62,17 @@ CausticsRecord causticsRecord(const FluidState& fluid, const FluidLook& look, co
 Expected<Caustics> Caustics::create(Device& device, bool solids, uint32_t fluids) {
   Caustics out;
   out.solids_ = solids;
+  const bool texels = usesTexelReads(device);
   ModulePipelines pipelines(device);
   out.particleGroups_ = pipelines.make("render/particle_groups");
   out.depths_ = pipelines.make("render/caustics_depths");
-  out.smooth_[0] = pipelines.make("render/caustics_smooth", false, {{"FLUIDS", fluids}});
-  out.smooth_[1] = pipelines.make("render/caustics_smooth_vertical");
+  out.smooth_[0] = pipelines.make("render/caustics_smooth", texels, {{"FLUIDS", fluids}});
+  out.smooth_[1] = pipelines.make("render/caustics_smooth_vertical", texels);
   out.slopes_ = pipelines.make("render/caustics_slopes");
   const std::string rays = solids ? "render/caustics_rays_solids" : "render/caustics_rays";
-  out.rays_ = pipelines.make(shaderVariant(device, rays, "_several", fluids > 1), false, {{"FLUIDS", fluids}});
-  out.splat_ = pipelines.make(solids ? "render/caustics_splat_solids" : "render/caustics_splat");
-  out.resolve_ = pipelines.make(solids ? "render/caustics_resolve_solids" : "render/caustics_resolve");
+  out.rays_ = pipelines.make(shaderVariant(device, rays, "_several", fluids > 1), texels, {{"FLUIDS", fluids}});
+  out.splat_ = pipelines.make(solids ? "render/caustics_splat_solids" : "render/caustics_splat", texels);
+  out.resolve_ = pipelines.make(solids ? "render/caustics_resolve_solids" : "render/caustics_resolve", texels);
   out.level_ = pipelines.make("render/caustics_level");
   if (auto made = pipelines.result(); !made) return made.error();
   return out;

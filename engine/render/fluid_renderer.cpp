@@ -1,6 +1,7 @@
 #include "rill/fluid_renderer.hpp"
 
 #include "gpu/module_pipelines.hpp"
+#include "gpu/texel_reads.hpp"
 #include "graph/graph_impl.hpp"
 #include "graph/shader_pass.hpp"
 #include "render/check_input.hpp"
@@ -50,8 +51,10 @@ Expected<void> FluidRendererImpl::makeShade() {
   const uint32_t fluids = static_cast<uint32_t>(bodies.size());
   for (size_t k = 0; k < kShades; ++k) {
     const bool several = fluids > 1 && Shade(k) != Shade::Opaque;
+    const std::string fragment =
+        shaderVariant(*device->device, kFragments[k][environment != nullptr], "_texel", usesTexelReads(*device->device));
     auto drawn = graphicsPipeline(*device->device, {.vertex = "render/fluid_shade_vertex",
-                                                    .fragment = kFragments[k][environment != nullptr],
+                                                    .fragment = fragment,
                                                     .constants = {&fluids, several ? 1u : 0u},
                                                     .colors = {&formats.color, 1},
                                                     .depth = formats.depth,
@@ -84,6 +87,29 @@ SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& 
   return push;
 }
 
+/// A copy costs a tenth of a pass that reads images, but needs an image that can be copied from, which those of a host need not be.
+FluidRendererImpl::SceneCopy FluidRendererImpl::copyScene(Graph& graph, const SceneTargets& targets, bool whole) const {
+  const SurfacePush& push = last.push;
+  const uint64_t pixels = uint64_t{push.width} * push.height;
+  SceneCopy copy{graph.create("fluid scene color", {pixels * 8}), graph.create("fluid scene depth", {pixels * 4})};
+  if (!whole) {
+    addDispatch(graph, "fluid scene", scene, {last.arguments, kPixelArguments * 4}, push,
+                {{"host_color", targets.color}, {"host_depth", targets.depth}, {"scene_color", copy.color}, {"scene_depth", copy.depth}});
+    return copy;
+  }
+  graph.pass("fluid scene", [&](Pass& pass) {
+    pass.read(targets.color, Use::CopySource);
+    pass.read(targets.depth, Use::CopySource);
+    copy.color = pass.write(copy.color, Use::CopyTarget, true);
+    copy.depth = pass.write(copy.depth, Use::CopyTarget, true);
+    return [targets, copy](Commands& commands) {
+      commands.copy(targets.color, copy.color);
+      commands.copy(targets.depth, copy.depth);
+    };
+  });
+  return copy;
+}
+
 SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
                                       const FluidLook& given, bool whole, BufferRef texels) {
   const FluidLook look = bodies.size() == 1 ? withBody(given, bodies.front()) : given;
@@ -94,10 +120,8 @@ SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, Sce
   if (!accepted(graph, checkTargets(graph, targets, view))) return targets;
   last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
   const SurfacePush push = last.push;
-  const uint64_t pixels = uint64_t{push.width} * push.height;
-  BufferRef sceneColor = graph.create("fluid scene color", {pixels * 8}), sceneDepth = graph.create("fluid scene depth", {pixels * 4});
-  addDispatch(graph, "fluid scene", scene, {last.arguments, kPixelArguments * 4}, push,
-              {{"host_color", targets.color}, {"host_depth", targets.depth}, {"scene_color", sceneColor}, {"scene_depth", sceneDepth}});
+  lastScene = copyScene(graph, targets, whole);
+  const BufferRef sceneColor = lastScene.color, sceneDepth = lastScene.depth;
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness, normals, back;
   if (look.opaque) {

@@ -24,7 +24,8 @@ class FluidRendererImpl {
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
   Expected<void> setFluids(std::span<const FluidBody> fluids);
-  /// `whole`: also writes pixels of the surface without fluid. `texels`: of the environment, if any.
+  /// `whole`: targets of the graph's own, in the default formats; also writes pixels of the surface without fluid. `texels`: of the
+  /// environment, if any.
   SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole,
                      BufferRef texels = {});
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
@@ -36,6 +37,11 @@ class FluidRendererImpl {
   SurfaceStage surface;
   MeanNormals meanNormals;
   SurfaceBuffers last;  ///< of the frame being declared
+  /// Of its scene, before the fluid is drawn: colors as halves, and depths of the target.
+  struct SceneCopy {
+    BufferRef color, depth;
+  };
+  SceneCopy lastScene;
   const ComputePipeline *scene = nullptr, *data[3] = {};
   CrestDepths crests;
   /// Plain, of an opaque fluid, and with light through crests.
@@ -45,6 +51,7 @@ class FluidRendererImpl {
 
  private:
   Expected<void> makeShade();
+  SceneCopy copyScene(Graph& graph, const SceneTargets& targets, bool whole) const;
 };
 
 }  // namespace rill

@@ -57,9 +57,10 @@ Expected<SurfaceStage> SurfaceStage::create(Device& device, bool storageReads) {
   stage.scatter_ = pipelines.make("render/surface_scatter");
   stage.order_ = pipelines.make("render/surface_order");
   stage.tiles_ = pipelines.make("render/surface_tiles");
-  stage.compose_ = pipelines.make("render/surface_compose");
-  stage.thickness_ = pipelines.make("render/surface_thickness", false, {{"FLUIDS", 1}});
-  stage.back_ = pipelines.make("render/fluid_back", false, {{"FLUIDS", 1}});
+  stage.compose_ = pipelines.make("render/surface_compose", texels);
+  stage.thickness_ = pipelines.make("render/surface_thickness", texels, {{"FLUIDS", 1}});
+  stage.shadow_ = pipelines.make("render/fluid_shadow");
+  stage.back_ = pipelines.make("render/fluid_back", texels, {{"FLUIDS", 1}});
   stage.thicknessNoScene_ = pipelines.make("render/surface_thickness_no_scene", false, {{"FLUIDS", 1}});
   stage.planes_ = pipelines.make("render/surface_planes", texels);
   stage.blend_ = pipelines.make("render/surface_blend", texels);

@@ -59,13 +59,15 @@ class SurfaceStage {
   /// Thickness along each sample's ray in units of `push.unit`, one sample per `push.step` pixels. Of each fluid: as many grids of samples,
   /// and with a `sceneDepth` as many more, of the bits of the depth of its nearest particle, inverted; 0 without one.
   /// With a `sceneDepth` the last grid has sums of thicknesses times depths (fluid_depths.glsl).
-  /// `sceneDepth`: m per pixel, hides fluid behind it; may be an empty ref.
+  /// `sceneDepth`: of the target, per pixel, hides fluid behind it; may be an empty ref.
   /// `surface`: the result of addTo() for the same state, which counts kBoundHits; may be null.
   BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,
                          BufferRef sceneDepth, SurfaceBuffers* surface, Of of = Of::All) const;
   /// Where the fluid ends on each sample's ray (fluid_back.glsl), from what addThickness() has for this scene and this push.
   BufferRef addBack(Graph& graph, const SurfaceBuffers& surface, const surface::SurfacePush& push, BufferRef thickness,
                     BufferRef sceneDepth, Of of) const;
+  /// What addThickness() has of each fluid for a light's push of step 1, in m and blurred, for shaders/views/scenery.glsl.
+  BufferRef addShadow(Graph& graph, const surface::SurfacePush& light, BufferRef thickness) const;
   /// The camera with the fields that addThickness() needs.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);
 
@@ -106,7 +108,8 @@ class SurfaceStage {
                         *pick_ = nullptr, *scatter_ = nullptr, *order_ = nullptr, *planes_ = nullptr, *blend_ = nullptr, *tiles_ = nullptr,
                         *compose_ = nullptr, *edges_ = nullptr, *edgesFiltered_ = nullptr, *narrow_[2] = {}, *normals_ = nullptr,
                         *thickness_ = nullptr, *thicknessNoScene_ = nullptr, *fluidThickness_ = nullptr, *fluidThicknessNoScene_ = nullptr,
-                        *back_ = nullptr, *fluidBack_ = nullptr, *mixedThickness_ = nullptr, *mixedThicknessNoScene_ = nullptr;
+                        *shadow_ = nullptr, *back_ = nullptr, *fluidBack_ = nullptr, *mixedThickness_ = nullptr,
+                        *mixedThicknessNoScene_ = nullptr;
 };
 
 /// Pixels per side of a sample, such that a spacing at `depth` has `samples` to twice as many samples.

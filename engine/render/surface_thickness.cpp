@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gpu/module_pipelines.hpp"
+#include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
 #include "render/mixture.hpp"
 #include "render/surface.hpp"
@@ -36,6 +37,7 @@ SurfacePush SurfaceStage::thicknessPush(SurfacePush camera, const FluidState& fl
 
 Expected<void> SurfaceStage::setFluids(Device& device, std::span<const FluidBody> fluids) {
   const auto count = static_cast<uint32_t>(fluids.size());
+  const bool texels = !storageReads_ && usesTexelReads(device);
   ModulePipelines pipelines(device);
   std::vector<bool> diffuses;
   for (const FluidBody& fluid : fluids) diffuses.push_back(fluid.diffuses);
@@ -44,16 +46,16 @@ Expected<void> SurfaceStage::setFluids(Device& device, std::span<const FluidBody
   if (m.diffusing[0] != kNoFluid)
     for (const auto& [pipeline, name] :
          {std::pair{&mixed, "render/surface_thickness_mixed"}, {&mixedFree, "render/surface_thickness_mixed_no_scene"}})
-      *pipeline = pipelines.make(name, false,
+      *pipeline = pipelines.make(name, texels,
                                  {{"FLUIDS", count},
                                   {"DIFFUSING_0", m.diffusing[0]},
                                   {"DIFFUSING_1", m.diffusing[1]},
                                   {"DIFFUSING_2", m.diffusing[2]},
                                   {"DIFFUSING_3", m.diffusing[3]},
                                   {"CARRIER", m.carrier}});
-  const ComputePipeline* behindScene = pipelines.make("render/surface_thickness", false, {{"FLUIDS", count}});
+  const ComputePipeline* behindScene = pipelines.make("render/surface_thickness", texels, {{"FLUIDS", count}});
   const ComputePipeline* free = pipelines.make("render/surface_thickness_no_scene", false, {{"FLUIDS", count}});
-  const ComputePipeline* back = pipelines.make("render/fluid_back", false, {{"FLUIDS", count}});
+  const ComputePipeline* back = pipelines.make("render/fluid_back", texels, {{"FLUIDS", count}});
   if (auto made = pipelines.result(); !made) return made;
   fluidBack_ = back;
   fluidThickness_ = behindScene;
@@ -88,6 +90,15 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
                {"concentration", fluid.concentration},
                {"scene_depth", sceneDepth}});
   return thickness;
+}
+
+BufferRef SurfaceStage::addShadow(Graph& graph, const SurfacePush& light, BufferRef thickness) const {
+  const uint32_t width = light.width + 2 * kShadowBorder, height = light.height + 2 * kShadowBorder;
+  BufferRef shadow = graph.create("fluid shadow blurred", {uint64_t{width} * height * fluids_ * 4});
+  const Groups groups{static_cast<uint32_t>(divideUp(width, kSurfaceTile)), static_cast<uint32_t>(divideUp(height, kSurfaceTile)), fluids_};
+  addDispatch(graph, "fluid shadow blur", shadow_, groups, FluidShadowPush{light.width, light.height, light.unit},
+              {{"thickness", std::as_const(thickness)}, {"fluid_shadow", shadow}});
+  return shadow;
 }
 
 BufferRef SurfaceStage::addBack(Graph& graph, const SurfaceBuffers& surface, const SurfacePush& push, BufferRef thickness,

@@ -1,6 +1,8 @@
 #include "views/finish.hpp"
 
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "gpu/module_pipelines.hpp"
 #include "gpu/texel_reads.hpp"
@@ -12,22 +14,52 @@ namespace rill {
 
 using namespace antialias;
 
-Expected<Finish> Finish::create(Device& device) {
+namespace {
+
+constexpr uint32_t kToneTile = 8;  ///< pixels per side of a workgroup
+
+Groups tilesOf(uint32_t width, uint32_t height, uint32_t side) {
+  return {static_cast<uint32_t>(divideUp(width, side)), static_cast<uint32_t>(divideUp(height, side)), 1};
+}
+
+}  // namespace
+
+Expected<Finish> Finish::create(Device& device, bool storageReads) {
   Finish out;
+  const bool texels = !storageReads && usesTexelReads(device);
   ModulePipelines pipelines(device);
   out.tone_ = pipelines.make("views/tonemap");
-  out.antialias_ = pipelines.make("views/antialias", usesTexelReads(device));
+  out.search_ = pipelines.make("views/antialias_search", texels);
+  out.antialias_ = pipelines.make("views/antialias", texels);
   if (auto made = pipelines.result(); !made) return made.error();
   return out;
 }
 
 BufferRef Finish::addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height, double exposure_stops) const {
-  const uint64_t pixels = uint64_t{width} * height;
-  BufferRef aliased = graph.create("picture aliased", {pixels * 4}), picture = graph.create("picture", {pixels * 4});
-  addDispatch(graph, "picture tone", tone_, divideUp(pixels, 64), static_cast<float>(std::exp2(exposure_stops)),
+  BufferRef aliased = graph.create("picture aliased", {uint64_t{width} * height * 4});
+  addDispatch(graph, "picture tone", tone_, tilesOf(width, height, kToneTile), static_cast<float>(std::exp2(exposure_stops)),
               {{"hdr", color}, {"aliased", aliased}});
-  const Groups tiles{static_cast<uint32_t>(divideUp(width, kAntialiasGroup)), static_cast<uint32_t>(divideUp(height, kAntialiasGroup)), 1};
-  addDispatch(graph, "picture edges", antialias_, tiles, AntialiasPush{width, height}, {{"aliased", aliased}, {"picture", picture}});
+  return smoothed(graph, aliased, width, height);
+}
+
+BufferRef Finish::smoothed(Graph& graph, BufferRef aliased, uint32_t width, uint32_t height) const {
+  const uint64_t bytes = uint64_t{width} * height * 4;
+  BufferRef picture = graph.create("picture", {bytes}), edges = graph.create("picture edge pixels", {bytes});
+  BufferRef counts = graph.create("picture edge counts", {4 * 4});
+  graph.pass("picture copy", [&](Pass& pass) {
+    pass.read(aliased, Use::CopySource);
+    picture = pass.write(picture, Use::CopyTarget, true);
+    counts = pass.write(counts, Use::CopyTarget, true);
+    return [aliased, picture, counts, bytes](Commands& commands) {
+      constexpr uint32_t kNone[] = {0, kEdgeRows, 1, 0};
+      commands.copy(aliased, picture, bytes);
+      commands.update(counts, std::as_bytes(std::span(kNone)));
+    };
+  });
+  const AntialiasPush push{width, height};
+  const Named named[] = {{"aliased", std::as_const(aliased)}, {"counts", counts}, {"edges", edges}, {"picture", picture}};
+  addDispatch(graph, "picture edge search", search_, tilesOf(width, height, kAntialiasTile), push, named);
+  addDispatch(graph, "picture edges", antialias_, {counts, 0}, push, named);
   return picture;
 }
 

@@ -66,7 +66,9 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
     graph.skipped("scenery solids", "the scene has no solids");
   }
   const BufferRef caustics = addCaustics(graph, fluid, look, shadow, double{light.unit}, lightDepth, record);
-  const Drawing& drawing = caustics == BufferRef{} ? plain_ : refracted_;
+  const bool plain = caustics == BufferRef{};
+  const Drawing& drawing = plain ? plain_ : refracted_;
+  if (plain && shadow != BufferRef{}) shadow = stage_.addShadow(graph, light, shadow);
   const Named lit[] = {{"scene", scene},      {"look", record},        {"fluid_shadow", shadow},     {"light_depth", lightDepth},
                        {"placed", poses},     {"environment", texels}, {"mesh_parts", meshes.parts}, {"mesh_triangles", meshes.triangles},
                        {"caustics", caustics}};

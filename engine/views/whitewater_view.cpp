@@ -1,8 +1,10 @@
 #include "views/whitewater_view.hpp"
 
 #include <span>
+#include <string>
 
 #include "gpu/module_pipelines.hpp"
+#include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
 
@@ -12,29 +14,22 @@ using surface::SurfacePush;
 
 Expected<WhitewaterView> WhitewaterView::create(Device& device, const TargetFormats& formats, bool environment) {
   WhitewaterView out;
+  const bool texels = usesTexelReads(device);
   ModulePipelines pipelines(device);
-  out.scene_ = pipelines.make("views/whitewater_scene");
-  out.splat_ = pipelines.make("views/whitewater_splat");
+  out.splat_ = pipelines.make("views/whitewater_splat", texels);
   if (auto made = pipelines.result(); !made) return made.error();
-  auto blend =
-      graphicsPipeline(device, {.vertex = "views/scenery_ground_vertex",
-                                .fragment = environment ? "views/whitewater_blend_environment_fragment" : "views/whitewater_blend_fragment",
-                                .colors = {&formats.color, 1},
-                                .depth = formats.depth,
-                                .depthCompare = VK_COMPARE_OP_ALWAYS,
-                                .depthWrite = false,
-                                .blend = Blend::Premultiplied});
+  const std::string fragment = shaderVariant(
+      device, environment ? "views/whitewater_blend_environment_fragment" : "views/whitewater_blend_fragment", "_texel", texels);
+  auto blend = graphicsPipeline(device, {.vertex = "views/scenery_ground_vertex",
+                                         .fragment = fragment,
+                                         .colors = {&formats.color, 1},
+                                         .depth = formats.depth,
+                                         .depthCompare = VK_COMPARE_OP_ALWAYS,
+                                         .depthWrite = false,
+                                         .blend = Blend::Premultiplied});
   if (!blend) return blend.error();
   out.blend_ = *blend;
   return out;
-}
-
-BufferRef WhitewaterView::addScene(Graph& graph, ImageRef depth, const SurfacePush& view) const {
-  const uint64_t pixels = uint64_t{view.width} * view.height;
-  BufferRef scene = graph.create("whitewater scene depth", {pixels * 4});
-  addDispatch(graph, "whitewater scene", scene_, divideUp(pixels, surface::kSurfaceGroup), view,
-              {{"host_depth", std::as_const(depth)}, {"scene_depth", scene}});
-  return scene;
 }
 
 BufferRef WhitewaterView::addDots(Graph& graph, const Input& input, const SurfacePush& view, const WhitewaterExposure& exposure) const {

@@ -23,13 +23,11 @@ class WhitewaterView {
   /// `environment`: the sky is one of FluidRenderer::setEnvironment(). The device must have the shaders of engine/views.
   static Expected<WhitewaterView> create(Device& device, const TargetFormats& formats, bool environment);
 
-  /// Copies the depth of the scene, before the fluid is drawn.
-  BufferRef addScene(Graph& graph, ImageRef depth, const surface::SurfacePush& view) const;
   /// What the picture is drawn from.
   struct Input {
     WhitewaterState white;
     Double3 origin;    ///< of its positions
-    BufferRef scene;   ///< of addScene()
+    BufferRef scene;   ///< the depths of the target, before the fluid was drawn
     BufferRef pixels;  ///< of the fluid's surface
     BufferRef look;    ///< of addLook()
   };
@@ -40,7 +38,7 @@ class WhitewaterView {
                      const WhitewaterExposure& exposure) const;
 
  private:
-  const ComputePipeline *scene_ = nullptr, *splat_ = nullptr;
+  const ComputePipeline* splat_ = nullptr;
   const GraphicsPipeline* blend_ = nullptr;
 };
 

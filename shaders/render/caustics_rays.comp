@@ -5,17 +5,18 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/caustics.glsl"
 #include "render/fresnel.glsl"
+#include "shared/arrays.glsl"
 #ifdef SEVERAL
 #include "render/look_records.h"
 layout(std140, set = 0, binding = SEVERAL) uniform Look { LookRecord look; };
-layout(std430, set = 0, binding = SEVERAL + 1) readonly buffer Thickness { uint thickness[]; };  // of each fluid
+READ_UINT(SEVERAL + 1, thickness)  // of each fluid
 #include "render/fluid_bodies.glsl"
 #endif
 
 layout(local_size_x = kCausticGroup) in;
-layout(std430, set = 0, binding = 1) readonly buffer Smooth { vec4 smoothed[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Front { vec4 front[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Back { vec4 back[]; };
+READ_FLOAT4(1, smoothed)
+READ_FLOAT4(2, front)
+READ_FLOAT4(3, back)
 layout(std430, set = 0, binding = 4) writeonly buffer Landings { uvec4 landings[]; };
 #ifdef SOLIDS
 layout(set = 0, binding = 5) uniform texture2D light_depth;
@@ -46,19 +47,19 @@ uint cornerOf(vec2 at, ivec2 corner) {
   return texelIndex(clamp(ivec2(floor(at)) + corner, ivec2(0), ivec2(sun.width, sun.height) - 1));
 }
 vec3 firstAt(vec2 at) {
-  return between(at, front[cornerOf(at, ivec2(0, 0))], front[cornerOf(at, ivec2(1, 0))], front[cornerOf(at, ivec2(0, 1))],
-                 front[cornerOf(at, ivec2(1, 1))], 1.0);
+  return between(at, frontAt(cornerOf(at, ivec2(0, 0))), frontAt(cornerOf(at, ivec2(1, 0))), frontAt(cornerOf(at, ivec2(0, 1))),
+                 frontAt(cornerOf(at, ivec2(1, 1))), 1.0);
 }
 vec3 lastAt(vec2 at) {
-  return between(at, back[cornerOf(at, ivec2(0, 0))], back[cornerOf(at, ivec2(1, 0))], back[cornerOf(at, ivec2(0, 1))],
-                 back[cornerOf(at, ivec2(1, 1))], -1.0);
+  return between(at, backAt(cornerOf(at, ivec2(0, 0))), backAt(cornerOf(at, ivec2(1, 0))), backAt(cornerOf(at, ivec2(0, 1))),
+                 backAt(cornerOf(at, ivec2(1, 1))), -1.0);
 }
 
 // What is covered, and thickness in m.
 vec2 bodyAt(vec2 at) {
   const vec2 part = fract(at);
-  return mix(mix(smoothed[cornerOf(at, ivec2(0, 0))].zw, smoothed[cornerOf(at, ivec2(1, 0))].zw, part.x),
-             mix(smoothed[cornerOf(at, ivec2(0, 1))].zw, smoothed[cornerOf(at, ivec2(1, 1))].zw, part.x), part.y);
+  return mix(mix(smoothedAt(cornerOf(at, ivec2(0, 0))).zw, smoothedAt(cornerOf(at, ivec2(1, 0))).zw, part.x),
+             mix(smoothedAt(cornerOf(at, ivec2(0, 1))).zw, smoothedAt(cornerOf(at, ivec2(1, 1))).zw, part.x), part.y);
 }
 
 // 1/m, mean along the sun's ray.
@@ -72,7 +73,7 @@ vec3 absorptionAt(vec2 at) {
     for (int k = 0; k < 4; ++k) {
       const ivec2 corner = ivec2(k & 1, k >> 1);
       const vec2 share = mix(1.0 - part, part, vec2(corner));
-      counts += share.x * share.y * float(thickness[fluid * sun.width * sun.height + cornerOf(at, corner)]);
+      counts += share.x * share.y * float(thicknessAt(fluid * sun.width * sun.height + cornerOf(at, corner)));
     }
     addFluid(sums, fluid, counts * sun.thickness);
     meters += counts * sun.thickness;

@@ -3,10 +3,11 @@
 // no fluid; of SOLIDS, in a second layer, the depth where fluid begins.
 #extension GL_GOOGLE_include_directive : require
 #include "render/caustics.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kCausticGroup) in;
-layout(std430, set = 0, binding = 1) readonly buffer Sums { uint sums[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Smooth { vec4 smoothed[]; };
+READ_UINT(1, sums)
+READ_FLOAT4(2, smoothed)
 layout(std430, set = 0, binding = 3) writeonly buffer Caustics { uvec2 caustics[]; };
 
 #ifdef SOLIDS
@@ -18,7 +19,7 @@ const uint kLayers = 1u;
 vec3 sumAt(ivec2 texel, ivec2 size, uint start) {
   texel = clamp(texel, ivec2(0), size - 1);
   const uint first = 3u * (start + uint(texel.y * size.x + texel.x));
-  return vec3(sums[first], sums[first + 1u], sums[first + 2u]);
+  return vec3(sumsAt(first), sumsAt(first + 1u), sumsAt(first + 2u));
 }
 
 // The mean of four texels, which leaves no pattern of photons two texels apart. The map's texels are half a texel before those of the sums.
@@ -46,7 +47,7 @@ void main() {
     const ivec2 corner = ivec2(k & 1, k >> 1), near = ivec2(floor(at)) + corner;
     if (!inView(near)) continue;
     const vec2 weight = mix(1.0 - part, part, vec2(corner));
-    const vec4 texel_near = smoothed[texelIndex(near)];
+    const vec4 texel_near = smoothedAt(texelIndex(near));
     covered += weight.x * weight.y * texel_near.z;
     begins = min(begins, texel_near.x);
   }

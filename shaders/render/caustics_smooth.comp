@@ -2,17 +2,18 @@
 // Smooths both depths with a Gaussian over each one's own surface, first along rows, then (VERTICAL) along columns.
 #extension GL_GOOGLE_include_directive : require
 #include "render/caustics.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kCausticGroup) in;
 #ifdef VERTICAL
-layout(std430, set = 0, binding = 1) readonly buffer Rows { vec4 rows[]; };
+READ_FLOAT4(1, rows)
 layout(std430, set = 0, binding = 2) writeonly buffer Smooth { vec4 smoothed[]; };
 const ivec2 kAlong = ivec2(0, 1);
 #else
-layout(std430, set = 0, binding = 1) readonly buffer First { uint first[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Last { uint last[]; };
+READ_UINT(1, first)
+READ_UINT(2, last)
 layout(constant_id = 0) const uint FLUIDS = 1u;
-layout(std430, set = 0, binding = 3) readonly buffer Thickness { uint thickness[]; };  // of each fluid
+READ_UINT(3, thickness)  // of each fluid
 layout(std430, set = 0, binding = 4) writeonly buffer Rows { vec4 rows[]; };
 const ivec2 kAlong = ivec2(1, 0);
 #endif
@@ -25,13 +26,14 @@ vec4 texelAt(ivec2 at) {
   if (!inView(at)) return vec4(noDepth(), noDepth(), 0.0, 0.0);
   const uint index = texelIndex(at);
 #ifdef VERTICAL
-  return rows[index];
+  return rowsAt(index);
 #else
-  uint counts = thickness[index];
-  for (uint fluid = 1u; fluid < FLUIDS; ++fluid) counts += thickness[fluid * sun.width * sun.height + index];
+  uint counts = thicknessAt(index);
+  for (uint fluid = 1u; fluid < FLUIDS; ++fluid) counts += thicknessAt(fluid * sun.width * sun.height + index);
   const float meters = float(counts) * sun.thickness;
-  if (first[index] == kNoFirst) return vec4(noDepth(), noDepth(), 0.0, meters);
-  return vec4(fromOrdered(uvec3(first[index], last[index], 0u)).xy, 1.0, meters);
+  const uint begins = firstAt(index);
+  if (begins == kNoFirst) return vec4(noDepth(), noDepth(), 0.0, meters);
+  return vec4(fromOrdered(uvec3(begins, lastAt(index), 0u)).xy, 1.0, meters);
 #endif
 }
 

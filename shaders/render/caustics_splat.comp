@@ -3,9 +3,10 @@
 // With SOLIDS the map has a second layer, for them.
 #extension GL_GOOGLE_include_directive : require
 #include "render/caustics.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kCausticGroup) in;
-layout(std430, set = 0, binding = 1) readonly buffer Landings { uvec4 landings[]; };
+READ_UINT4(1, landings)
 layout(std430, set = 0, binding = 2) buffer Sums { uint sums[]; };
 
 const float kSunDisc = 0.0093;  // rad, of its diameter
@@ -15,7 +16,7 @@ const float kWidest = 2.5;      // texels, half the width of a beam at most; wid
 bool beamTo(ivec2 other, vec2 place, float path, ivec2 size, out vec2 beam) {
   beam = vec2(0.0);
   if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) return false;
-  const uvec4 next = landings[uint(other.y * size.x + other.x)];
+  const uvec4 next = landingsAt(uint(other.y * size.x + other.x));
   beam = uintBitsToFloat(next.xy) - place;
   return unpackHalf2x16(next.w).y * path > 0.0 && all(lessThan(abs(beam), vec2(1e5)));
 }
@@ -31,7 +32,7 @@ void main() {
   const uint index = invocation();
   const ivec2 size = fineSize();
   if (index >= uint(size.x * size.y)) return;
-  const uvec4 own = landings[index];
+  const uvec4 own = landingsAt(index);
   const vec2 last = unpackHalf2x16(own.w);
   if (last.y == 0.0) return;
   vec2 place = uintBitsToFloat(own.xy);

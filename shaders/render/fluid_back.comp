@@ -6,12 +6,14 @@
 #include "render/surface.glsl"
 #include "render/fluid_depths.glsl"
 #include "render/fluid_back.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kSurfaceGroup) in;
 layout(constant_id = 0) const uint FLUIDS = 1u;
-layout(std430, set = 0, binding = 0) readonly buffer Thickness { uint thickness[]; };
-layout(std430, set = 0, binding = 1) readonly buffer SceneDepth { float scene_depth[]; };  // m per pixel
-layout(std430, set = 0, binding = 2) readonly buffer Samples { uvec2 samples[]; };  // of the surface: depth, normal
+READ_UINT(0, thickness)
+#define SCENE_DEPTH 1
+#include "render/scene_depth.glsl"
+READ_UINT2(2, samples)  // of the surface: depth, normal
 layout(std430, set = 0, binding = 3) writeonly buffer Back { uvec2 back[]; };
 
 const int kTaps = 2;             // to each side
@@ -31,14 +33,14 @@ struct Tap {
 float beginsAt(vec2 pixel) {
   const uint side = surface_grid & 0xFFFFu, margin = surface_grid >> 16;
   const uvec2 grid = (uvec2(view.width, view.height) + side - 1u) / side + 2u * margin, at = min(uvec2(pixel) / side + margin, grid - 1u);
-  return uintBitsToFloat(samples[at.y * grid.x + at.x].x);
+  return uintBitsToFloat(samplesAt(at.y * grid.x + at.x).x);
 }
 Tap tapAt(ivec2 at, uvec2 grid) {
   const uint cells = grid.x * grid.y, cell = uint(at.y) * grid.x + uint(at.x);
   uint counts = 0u;
-  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) counts += thickness[fluid * cells + cell];
+  for (uint fluid = 0u; fluid < FLUIDS; ++fluid) counts += thicknessAt(fluid * cells + cell);
   const float size = float(counts) * view.unit;
-  const float middle = meanDepth(float(thickness[depthGrid(FLUIDS) * cells + cell]), float(counts), view.spacing);
+  const float middle = meanDepth(float(thicknessAt(depthGrid(FLUIDS) * cells + cell)), float(counts), view.spacing);
   const vec3 along = rayAlong(axisOf(samplePixel(at)));
   const float depths = size * inversesqrt(dot(along, along));
   return Tap(middle + 0.5 * depths, size, depths);
@@ -84,7 +86,7 @@ void main() {
   const float z = own.z + (first.z - dot(slope, first.xy)) * view.spacing;
   slope *= view.spacing / (float(stride) * float(view.step));  // m per pixel
   const uvec2 pixel = min(uvec2(samplePixel(p)), uvec2(view.width, view.height) - 1u);
-  const float gap = scene_depth[pixel.y * view.width + pixel.x] - z;
+  const float gap = sceneDepth(pixel) - z;
   const float begins = beginsAt(samplePixel(p)), hidden = abs(own.z - own.depths - begins);
   const bool summed = (begins + own.size) * own.size < kMaxDepthSum * view.spacing * view.spacing;  // without an overflow
   const float fits = (1.0 - smoothstep(kMisfit.x, kMisfit.y, misfit)) * smoothstep(kShare.x, kShare.y, weights / max(all, 1e-6));

@@ -5,18 +5,20 @@
 #include "render/surface.glsl"
 #include "render/look_records.h"
 #include "render/fresnel.glsl"
+#include "shared/arrays.glsl"
 
 layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
 #include "render/sky.glsl"
-layout(std430, set = 0, binding = 2) readonly buffer Surface { uvec2 surface[]; };
-layout(std430, set = 0, binding = 3) readonly buffer SceneColor { uvec2 scene_color[]; };
-layout(std430, set = 0, binding = 4) readonly buffer SceneDepth { float scene_depth[]; };
+READ_UINT2(2, surface)
+READ_UINT2(3, scene_color)
+#define SCENE_DEPTH 4
+#include "render/scene_depth.glsl"
 #ifndef OPAQUE
 #include "render/fluid_bodies.glsl"
-layout(std430, set = 0, binding = 5) readonly buffer Thickness { uint thickness[]; };  // of each fluid
-layout(std430, set = 0, binding = 6) readonly buffer MeanNormals { uint mean_normals[]; };  // packed mean normal of each sample with fluid
-layout(std430, set = 0, binding = 7) readonly buffer Samples { uvec2 samples[]; };  // depth, normal
-layout(std430, set = 0, binding = 8) readonly buffer Back { uvec2 back[]; };
+READ_UINT(5, thickness)  // of each fluid
+READ_UINT(6, mean_normals)  // packed mean normal of each sample with fluid
+READ_UINT2(7, samples)  // depth, normal
+READ_UINT2(8, back)
 #include "render/surface_mean_normal.glsl"
 #include "render/fluid_depths.glsl"
 #include "render/fluid_back.glsl"
@@ -30,8 +32,8 @@ layout(location = 0) out vec4 color;
 const float kEdgeOn = -0.02;  // largest cosine between a visible normal and the view ray
 
 vec3 sceneAt(ivec2 pixel) {
-  const uvec2 packed = scene_color[uint(pixel.y) * view.width + uint(pixel.x)];
-  return vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x);
+  const uvec2 packed = scene_colorAt(uint(pixel.y) * view.width + uint(pixel.x));
+  return min(vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x), vec3(65504.0));
 }
 
 // Angle (rad) between the rays that this pixel and the next ones reflect. The built-in sky has no detail to be filtered.
@@ -41,7 +43,7 @@ float reflectedSpread(ivec2 pixel, vec3 normal) {
   for (int k = 0; k < 2; ++k) {
     const ivec2 next = pixel + ivec2(1 - k, k);
     if (next.x >= int(view.width) || next.y >= int(view.height)) continue;
-    const uvec2 other = surface[uint(next.y) * view.width + uint(next.x)];
+    const uvec2 other = surfaceAt(uint(next.y) * view.width + uint(next.x));
     if (pixelDepth(other) < noDepth()) change = max(change, length(unpackNormal(other.y) - normal));
   }
   return 2.0 * change + (view.perspective > 0.0 ? abs(view.scale[1]) * 2.0 / float(view.height) : 0.0);
@@ -66,7 +68,7 @@ const vec2 kGrazing = vec2(0.5, 0.9);
 
 // The scene's color, or that of pixel `own` where the scene is in front of depth z.
 vec3 sceneUnlessInFront(ivec2 pixel, ivec2 own, float z) {
-  return sceneAt(scene_depth[uint(pixel.y) * view.width + uint(pixel.x)] < z ? own : pixel);
+  return sceneAt(sceneDepth(uvec2(pixel)) < z ? own : pixel);
 }
 vec3 sceneBilinear(vec2 pixel, float z) {
   const vec2 at = clamp(pixel - 0.5, vec2(0.0), pictureSize() - 1.001);
@@ -165,9 +167,9 @@ MeanNormal meanNormalAt(vec2 middle, float z, vec3 normal, vec3 sight) {
   for (int k = 0; k < 4; ++k) {
     const ivec2 corner = ivec2(k & 1, k >> 1), s = clamp(base + corner, ivec2(0), grid - 1);
     const uint index = uint(s.y * grid.x + s.x);
-    const float depth = uintBitsToFloat(samples[index].x);
+    const float depth = uintBitsToFloat(samplesAt(index).x);
     if (depth >= noDepth()) continue;
-    const vec3 mean = unpackMean(mean_normals[index]);
+    const vec3 mean = unpackMean(mean_normalsAt(index));
     const vec2 share = mix(1.0 - part, part, vec2(corner));
     sum += share.x * share.y * sameSurface(depth - z, change) * mean;
     lengths += share.x * share.y * length(mean);
@@ -256,9 +258,9 @@ vec3 reflectedLight(vec3 body, vec3 sight, vec3 mirrored, float spread) {
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(view.left, view.top);
   const uint index = uint(pixel.y) * view.width + uint(pixel.x);
-  const uvec2 own = surface[index];
+  const uvec2 own = surfaceAt(index);
   const float z = pixelDepth(own);
-  if (!(z < scene_depth[index]) || z >= noDepth()) discard;
+  if (!(z < sceneDepth(index)) || z >= noDepth()) discard;
   const vec2 axis = axisOf(vec2(pixel) + 0.5);
   const vec3 along = rayAlong(axis), sight = normalize(along);
   vec3 normal = unpackNormal(own.y);

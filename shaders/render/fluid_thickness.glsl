@@ -1,5 +1,5 @@
 // Thickness of the fluids at a pixel, interpolated between samples. A sample is of a cell of `look.finish.y` pixels a side.
-// Needs `look`, `thickness`, `scene_depth` and FLUIDS.
+// Needs `look`, thicknessAt(), scene_depth.glsl and FLUIDS.
 
 // The four samples around a pixel, and how far it is between them.
 struct Around {
@@ -19,7 +19,7 @@ Around around(vec2 pixel) {
 // Length of the ray in one of the fluids, m.
 float thicknessOf(uint fluid, Around near) {
   const uvec4 s = near.samples + fluid * near.grid;
-  const float a = float(thickness[s.x]), b = float(thickness[s.y]), c = float(thickness[s.z]), d = float(thickness[s.w]);
+  const float a = float(thicknessAt(s.x)), b = float(thicknessAt(s.y)), c = float(thicknessAt(s.z)), d = float(thicknessAt(s.w));
   return mix(mix(a, b, near.part.x), mix(c, d, near.part.x), near.part.y) * look.finish.z;
 }
 float thicknessOver(Around near) {
@@ -27,18 +27,18 @@ float thicknessOver(Around near) {
   for (uint fluid = 1u; fluid < FLUIDS; ++fluid) sum += thicknessOf(fluid, near);
   return sum;
 }
-float thicknessAt(vec2 pixel) { return thicknessOver(around(pixel)); }
+float thicknessAtPixel(vec2 pixel) { return thicknessOver(around(pixel)); }
 // The same of a pixel that sees the fluid from depth z to the scene's. Samples where the scene is nearer than half of that have less fluid
 // in front of it; the next ones take their place.
 float thicknessToScene(ivec2 pixel, float z) {
   const Around near = around(vec2(pixel) + 0.5);
-  const float least = 0.5 * (z + scene_depth[uint(pixel.y) * view.width + uint(pixel.x)]);
+  const float least = 0.5 * (z + sceneDepth(uvec2(pixel)));
   const uint cell = uint(look.finish.y), columns = (view.width + cell - 1u) / cell;
   bvec4 seen;
   for (int k = 0; k < 4; ++k) {
     const uvec2 own = uvec2(near.samples[k] % columns, near.samples[k] / columns);
     const uvec2 at = min(own * cell + cell / 2u, uvec2(view.width, view.height) - 1u);
-    seen[k] = scene_depth[at.y * view.width + at.x] >= least;
+    seen[k] = sceneDepth(at) >= least;
   }
   if (!any(seen)) return thicknessOver(near);
   const uvec4 across = mix(near.samples, near.samples.yxwz, not(seen));
@@ -53,7 +53,7 @@ float beginOf(uint fluid, Around near) {
   const vec4 shares = vec4(rest.x * rest.y, near.part.x * rest.y, rest.x * near.part.y, near.part.x * near.part.y);
   float sum = 0.0, weights = 0.0;
   for (int k = 0; k < 4; ++k) {
-    const uint bits = thickness[s[k]];
+    const uint bits = thicknessAt(s[k]);
     if (bits == 0u) continue;
     sum += shares[k] * uintBitsToFloat(~bits);
     weights += shares[k];

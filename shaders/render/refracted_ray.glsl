@@ -1,5 +1,5 @@
-// Where the ray of a pixel, bent where it enters the fluid and where it leaves it, meets the scene's depth. Needs `scene_depth`, `back` and
-// thicknessAt().
+// Where the ray of a pixel, bent where it enters the fluid and where it leaves it, meets the scene's depth. Needs scene_depth.glsl,
+// backAt() and thicknessAtPixel().
 
 const float kMaxDepth = 1e4;     // spacings: farthest
 const float kStride = 8.0;       // pixels between points of the march
@@ -17,15 +17,15 @@ const float kAway = 0.01;        // least cosine to the view direction of rays t
 const float kBorder = 0.06;      // heights of the picture: rays that meet nothing before they are so near to its border see the environment
 const float kSilhouette = 16.0;  // pixels: least step in depth from one pixel to the next that is an edge of the scene
 
-float sceneDepthAt(vec2 pixel) { return scene_depth[uint(pixel.y) * view.width + uint(pixel.x)]; }
+float sceneDepthAt(vec2 pixel) { return sceneDepth(uvec2(pixel)); }
 
-BackSample backAt(vec2 pixel) {
+BackSample backAtPixel(vec2 pixel) {
   const Around near = around(pixel);
   const vec2 rest = 1.0 - near.part;
   const vec4 shares = vec4(rest.x * rest.y, near.part.x * rest.y, rest.x * near.part.y, near.part.x * near.part.y);
   BackSample sum = BackSample(0.0, vec2(0.0), 0.0);
   for (int k = 0; k < 4; ++k) {
-    const BackSample one = unpackBack(back[near.samples[k]]);
+    const BackSample one = unpackBack(backAt(near.samples[k]));
     const float w = shares[k] * one.trust;
     sum.z += w * one.z;
     sum.slope += w * one.slope;
@@ -49,14 +49,14 @@ struct Leaving {
 Leaving leavingRay(vec3 from, vec3 bent, vec3 sight, float straight, float trust) {
   const vec2 last_pixel = pictureSize() - 1.0;
   const vec3 guess = from + straight * bent;
-  const float thickness = thicknessAt(clamp(pixelOf(guess), vec2(0.0), last_pixel));
+  const float thickness = thicknessAtPixel(clamp(pixelOf(guess), vec2(0.0), last_pixel));
   const float longest = max(straight, thickness);
   // Each step meets the plane that the back has where the last one ended.
   float size = straight, change = 0.0;
   vec3 normal = sight;
   RILL_LOOP for (int k = 0; k < kBackSteps; ++k) {
     const vec2 pixel = clamp(pixelOf(from + size * bent), vec2(0.0), last_pixel), axis = axisOf(pixel);
-    const BackSample behind = backAt(pixel);
+    const BackSample behind = backAtPixel(pixel);
     normal = normalize(vec3(behind.slope, 1.0));
     const vec3 end = rayFrom(axis) + behind.z * rayAlong(axis);
     const float next = clamp(dot(normal, end - from) / max(dot(normal, bent), 0.1), 0.0, 2.0 * straight);

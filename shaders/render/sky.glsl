@@ -1,10 +1,11 @@
 // The sky that fluids reflect and that lights the scenery, and the sunlight on a white surface. Needs `look`. With ENVIRONMENT, a binding
 // number, it is an environment map.
 #ifdef ENVIRONMENT
-layout(std430, set = 0, binding = ENVIRONMENT) readonly buffer Environment { uint environment[]; };
+#include "shared/arrays.glsl"
+READ_UINT(ENVIRONMENT, environment)
 
 vec3 environmentTexel(uint first, ivec2 at, ivec2 size) {
-  const uint texel = environment[first + uint(at.y * size.x + at.x)];
+  const uint texel = environmentAt(first + uint(at.y * size.x + at.x));
   // E5B9G9R9: nine-bit mantissas over 2^24, times two to the power of the upper five bits.
   return vec3(texel & 0x1FFu, (texel >> 9) & 0x1FFu, (texel >> 18) & 0x1FFu) * uintBitsToFloat(((texel >> 27) + 103u) << 23);
 }

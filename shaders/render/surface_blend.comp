@@ -4,7 +4,7 @@
 #include "render/surface.glsl"
 
 #include "render/surface_arrays.glsl"
-layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
+READ_UINT(3, depth)
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
 layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #define BLOCKS 6
@@ -17,7 +17,7 @@ void main() {
   ivec2 at;
   if (!ownSample(at)) return;
   const uint index = uint(at.y) * sampleGrid().x + uint(at.x);
-  const float hard = uintBitsToFloat(depth[index]);
+  const float hard = uintBitsToFloat(depthAt(index));
   if (hard >= noDepth()) return;
   const vec2 axis = axisOf(samplePixel(at));
   if (hard <= nearestDrawn() && isInterior(at)) {  // inside the near plane's section

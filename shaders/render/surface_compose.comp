@@ -3,10 +3,11 @@
 // surface_edges.comp, because few need it and they would stall their workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "render/surface.glsl"
+#include "shared/arrays.glsl"
 
 layout(local_size_x = kSurfaceTile, local_size_y = kSurfaceTile) in;
-layout(std430, set = 0, binding = 0) readonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Samples { uvec2 samples[]; };
+READ_UINT(0, depth)
+READ_UINT2(1, samples)
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()

@@ -1,4 +1,4 @@
-// The four samples around a pixel, each with its plane, and whether they lie on one surface. Needs `samples`.
+// The four samples around a pixel, each with its plane, and whether they lie on one surface. Needs samplesAt().
 const float kCoplanar = 0.35;  // spacings: maximal distance of a sample to the plane through another
 
 struct Corners {
@@ -17,7 +17,7 @@ Corners cornersOf(vec2 middle) {
   c.coplanar = true;
   for (int k = 0; k < 4; ++k) {
     const ivec2 s = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), grid - 1);
-    const uvec2 stored = samples[uint(s.y * grid.x + s.x)];
+    const uvec2 stored = samplesAt(uint(s.y * grid.x + s.x));
     const vec2 axis = axisOf(samplePixel(s));
     c.depths[k] = uintBitsToFloat(stored.x);
     c.normals[k] = unpackNormal(stored.y);

@@ -1,9 +1,9 @@
-// Nearest and farthest depth of the spheres in the samples around a pixel; unchanged without spheres. Needs `depth`.
+// Nearest and farthest depth of the spheres in the samples around a pixel; unchanged without spheres. Needs depthAt().
 void depthRange(ivec2 own, inout float nearest, inout float farthest) {
   const ivec2 grid = ivec2(sampleGrid());
   for (int y = max(own.y - 1, 0); y <= min(own.y + 1, grid.y - 1); ++y)
     for (int x = max(own.x - 1, 0); x <= min(own.x + 1, grid.x - 1); ++x) {
-      const float hard = uintBitsToFloat(depth[uint(y * grid.x + x)]);
+      const float hard = uintBitsToFloat(depthAt(uint(y * grid.x + x)));
       nearest = min(nearest, hard);
       if (hard < noDepth()) farthest = max(farthest, hard);
     }

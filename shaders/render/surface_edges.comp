@@ -6,8 +6,8 @@
 
 layout(local_size_x = kSurfaceGroup) in;
 #include "render/surface_arrays.glsl"
-layout(std430, set = 0, binding = 2) readonly buffer Depth { uint depth[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Samples { uvec2 samples[]; };
+READ_UINT(2, depth)
+READ_UINT2(3, samples)
 layout(std430, set = 0, binding = 4) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 5) readonly buffer Edges { uint edges[]; };
 layout(std430, set = 0, binding = 6) writeonly buffer Surface { uvec2 surface[]; };  // packPixel()
@@ -67,7 +67,7 @@ EdgePixel evaluate(vec2 middle, ivec2 own, float nearest, float farthest) {
   }
   const float interior = coverage < 1.0 ? interiorCoverage(middle) : 0.0;
   if (coverage < 0.5 && interior > coverage) {
-    const float hard = uintBitsToFloat(depth[uint(own.y) * sampleGrid().x + uint(own.x)]);
+    const float hard = uintBitsToFloat(depthAt(uint(own.y) * sampleGrid().x + uint(own.x)));
     blend = blendAt(axis, hard < noDepth() ? hard : nearest);
   }
   coverage = max(coverage, interior);

@@ -1,10 +1,10 @@
-// The interior of the fluid on the screen: where spheres leave no gap, coverage is 1 whatever the nearest centers give. Needs `depth`.
+// The interior of the fluid on the screen: where spheres leave no gap, coverage is 1 whatever the nearest centers give. Needs depthAt().
 
 bool isInterior(ivec2 at) {
   const ivec2 grid = ivec2(sampleGrid()), first = max(at - 2, ivec2(0)), last = min(at + 2, grid - 1);
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x)
-      if (depth[uint(y * grid.x + x)] == kNoDepthBits) return false;
+      if (depthAt(uint(y * grid.x + x)) == kNoDepthBits) return false;
   return true;
 }
 
@@ -23,7 +23,7 @@ float interiorCoverage(vec2 middle) {
     const float wy = y == -2 ? 1.0 - part.y : (y == 3 ? part.y : 1.0);
     for (int x = -2; x <= 3; ++x) {
       const float wx = x == -2 ? 1.0 - part.x : (x == 3 ? part.x : 1.0);
-      if (depth[uint((base.y + y) * grid.x + base.x + x)] != kNoDepthBits) covered += wx * wy;
+      if (depthAt(uint((base.y + y) * grid.x + base.x + x)) != kNoDepthBits) covered += wx * wy;
     }
   }
   const float slope = max(5.0 * float(view.step), 0.5 / (1.0 - kInteriorShare));

@@ -5,7 +5,7 @@
 
 #include "render/surface_arrays.glsl"
 READ_FLOAT(2, filtered)
-layout(std430, set = 0, binding = 3) readonly buffer Depth { uint depth[]; };
+READ_UINT(3, depth)
 layout(std430, set = 0, binding = 4) writeonly buffer Samples { uvec2 samples[]; };  // depth, normal
 layout(std430, set = 0, binding = 5) buffer Counters { uint counters[]; };
 #define BLOCKS 6
@@ -45,7 +45,7 @@ void main() {
   const uint index = uint(p.y * grid.x + p.x);
   const float z = filteredAt(index);
   if (z >= noDepth()) return;
-  const float hard = uintBitsToFloat(depth[index]);
+  const float hard = uintBitsToFloat(depthAt(index));
   const vec2 axis = axisOf(samplePixel(p));
   if (!isInterior(p)) {
     const float coverage = coverageFromCenters(axis, hard);

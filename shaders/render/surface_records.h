@@ -21,6 +21,7 @@ RILL_CONSTANT kOccluderSamples = 2;    // samples per side of an occlusion cell
 RILL_CONSTANT kMaxCells = 160;         // maximal occlusion cells per side of one particle
 // beyond each side of the picture: the reach of a plane's fit at the default of three samples per spacing
 RILL_CONSTANT kMarginSamples = 8;
+RILL_CONSTANT kShadowBorder = 2;       // texels around the fluid's shadow
 RILL_CONSTANT kMaxRows = 48;          // maximal rows of the screen grid that an iteration around a point visits
 RILL_CONSTANT kMaxInRow = 64;         // maximal particles that it visits per row
 RILL_CONSTANT kMaxInCell = 1024;      // maximal particles of a cell that are sorted
@@ -64,6 +65,11 @@ struct SurfacePush {
   float radius;        // m; of a particle's sphere in the depth before smoothing
   float unit;          // m per count of the thickness buffer
   float smoothing;     // planes: reach of the fit, spacings; narrow range: sigma, spacings; curvature flow: total time, m^2
+};
+
+struct FluidShadowPush {
+  uint width, height;  // texels without the border
+  float unit;          // m per count of thickness
 };
 
 #undef RILL_CONSTANT

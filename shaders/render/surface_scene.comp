@@ -1,5 +1,5 @@
 #version 460
-// Copies the host's color (linear) and depth (m), for refraction and because the fluid overwrites both.
+// Copies the host's color (linear) and depth, for refraction and because the fluid overwrites both.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/surface.glsl"
@@ -14,7 +14,7 @@ void main() {
   const uint index = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (index >= view.width * view.height) return;
   const ivec2 pixel = ivec2(index % view.width + view.left, index / view.width + view.top);
-  const vec4 color = min(texelFetch(host_color, pixel, 0), vec4(65504.0));
+  const vec4 color = texelFetch(host_color, pixel, 0);
   scene_color[index] = uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba));
-  scene_depth[index] = depthOfTarget(texelFetch(host_depth, pixel, 0).r);
+  scene_depth[index] = texelFetch(host_depth, pixel, 0).r;
 }

@@ -13,12 +13,12 @@ layout(std430, set = 0, binding = 3) readonly buffer ParticleCount { uint partic
 #ifdef MIXED
 layout(std430, set = 0, binding = 4) readonly buffer Concentration { vec4 concentration[]; };
 #include "shared/mixture.glsl"
-#define SCENE_BINDING 5
+#define SCENE_DEPTH 5
 #else
-#define SCENE_BINDING 4
+#define SCENE_DEPTH 4
 #endif
 #ifndef NO_SCENE
-layout(std430, set = 0, binding = SCENE_BINDING) readonly buffer SceneDepth { float scene_depth[]; };  // m per pixel
+#include "render/scene_depth.glsl"
 #endif
 
 bool behindScene(ivec2 at, float z) {
@@ -26,7 +26,7 @@ bool behindScene(ivec2 at, float z) {
   return false;
 #else
   const uvec2 pixel = min(uvec2(samplePixel(at)), uvec2(view.width, view.height) - 1u);
-  return z > scene_depth[pixel.y * view.width + pixel.x];
+  return z > sceneDepth(pixel);
 #endif
 }
 

@@ -1,26 +1,15 @@
 #version 460
-// Antialiasing of a finished picture (Lottes 2009, FXAA), for edges of fluid in front of fluid, of solids and of refracted objects.
+// Antialiasing of the listed pixels of a finished picture, for edges of fluid in front of fluid, of solids and of refracted objects.
 // An edge is followed to both of its ends; the pixel takes the share of its neighbor that the edge between them covers.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
-#include "shared/arrays.glsl"
-#include "views/antialias_record.h"
+#include "views/antialias.glsl"
 
-layout(local_size_x = kAntialiasGroup, local_size_y = kAntialiasGroup) in;
-layout(push_constant) uniform Push { AntialiasPush push; };
-READ_UINT(0, aliased)  // RGBA8, sRGB
-layout(std430, set = 0, binding = 1) writeonly buffer Picture { uint picture[]; };
+layout(local_size_x = kAntialiasGroup) in;
+layout(std430, set = 0, binding = 1) readonly buffer Counts { uint counts[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Edges { uint edges[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer Picture { uint picture[]; };
 
-const float kMinContrast = 0.06, kMinRelativeContrast = 0.15;  // of an edge: absolute, and relative to the brightest pixel
 const int kMaxReach = 8;  // pixels that an edge is followed to each side
-
-uint pixelAt(ivec2 p) {
-  p = clamp(p, ivec2(0), ivec2(push.width, push.height) - 1);
-  return aliasedAt(uint(p.y) * push.width + uint(p.x));
-}
-vec3 colorOf(uint pixel) { return vec3(pixel & 0xFFu, (pixel >> 8) & 0xFFu, (pixel >> 16) & 0xFFu) / 255.0; }
-float lumaOf(uint pixel) { return dot(colorOf(pixel), vec3(0.299, 0.587, 0.114)); }
-float lumaAt(ivec2 p) { return lumaOf(pixelAt(p)); }
 
 // Length of the edge to a side (-1, 1): to where the mean of both rows differs from the edge's. `off`: by how much.
 int endOf(ivec2 p, ivec2 along, ivec2 across, int side, float edge, float least, out float off) {
@@ -37,16 +26,12 @@ int endOf(ivec2 p, ivec2 along, ivec2 across, int side, float edge, float least,
 }
 
 void main() {
-  const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (p.x >= int(push.width) || p.y >= int(push.height)) return;
-  const uint index = uint(p.y) * push.width + uint(p.x), own = pixelAt(p);
+  const uint k = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kAntialiasGroup + gl_LocalInvocationIndex;
+  if (k >= counts[kEdgePixels]) return;
+  const uint index = edges[k], own = aliasedAt(index);
+  const ivec2 p = ivec2(index % push.width, index / push.width);
   const float c = lumaOf(own);
   const float n = lumaAt(p + ivec2(0, -1)), s = lumaAt(p + ivec2(0, 1)), w = lumaAt(p + ivec2(-1, 0)), e = lumaAt(p + ivec2(1, 0));
-  const float highest = max(c, max(max(n, s), max(w, e))), range = highest - min(c, min(min(n, s), min(w, e)));
-  if (range < max(kMinContrast, kMinRelativeContrast * highest)) {
-    picture[index] = own;
-    return;
-  }
   const float nw = lumaAt(p + ivec2(-1, -1)), ne = lumaAt(p + ivec2(1, -1)), sw = lumaAt(p + ivec2(-1, 1)), se = lumaAt(p + ivec2(1, 1));
   const float up = 2.0 * abs(n + s - 2.0 * c) + abs(ne + se - 2.0 * e) + abs(nw + sw - 2.0 * w);
   const float sideways = 2.0 * abs(w + e - 2.0 * c) + abs(nw + ne - 2.0 * n) + abs(sw + se - 2.0 * s);
@@ -65,5 +50,5 @@ void main() {
   // Light is about the square of the stored value.
   const vec3 mine = colorOf(own), its = colorOf(pixelAt(p + across));
   const uvec3 bytes = uvec3(sqrt(mix(mine * mine, its * its, share)) * 255.0 + 0.5);
-  picture[index] = share > 0.0 ? bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u : own;
+  if (share > 0.0) picture[index] = bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u;
 }

@@ -1,4 +1,4 @@
-// Push constants of the antialiasing pass.
+// Push constants and counts of the antialiasing passes.
 #ifndef RILL_VIEWS_ANTIALIAS_RECORD_H
 #define RILL_VIEWS_ANTIALIAS_RECORD_H
 
@@ -6,15 +6,23 @@
 #include <cstdint>
 namespace rill::antialias {
 using uint = std::uint32_t;
-constexpr uint kAntialiasGroup = 8;  // pixels per side of a workgroup
+#define RILL_CONSTANT constexpr uint
 #else
-const uint kAntialiasGroup = 8;
+#define RILL_CONSTANT const uint
 #endif
+
+RILL_CONSTANT kAntialiasTile = 8;    // pixels per side of a workgroup that looks for edges
+RILL_CONSTANT kAntialiasGroup = 64;  // pixels at edges of a workgroup
+// Words of the counts: workgroups in x, y and z, and pixels at edges. There are so many workgroups in y that those in x are below 65,536.
+RILL_CONSTANT kEdgeRows = 8;
+RILL_CONSTANT kEdgesAColumn = kAntialiasGroup * kEdgeRows;
+RILL_CONSTANT kEdgePixels = 3;
 
 struct AntialiasPush {
   uint width, height;  // pixels
 };
 
+#undef RILL_CONSTANT
 #ifdef __cplusplus
 }  // namespace rill::antialias
 #endif

@@ -2,13 +2,13 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "render/sky.glsl"
 #include "render/fluid_bodies.glsl"
+#include "shared/arrays.glsl"
 
 #ifdef CAUSTICS
 #include "render/caustics_records.h"
-layout(std430, set = 0, binding = 2) readonly buffer Caustics { uvec2 caustics[]; };  // of Caustics::addTo()
+READ_UINT2(2, caustics)  // of Caustics::addTo()
 #else
-// Thickness of each fluid towards the light, in look.finish.z.
-layout(std430, set = 0, binding = 2) readonly buffer FluidShadow { uint fluid_shadow[]; };
+READ_FLOAT(2, fluid_shadow)  // of fluid_shadow.comp
 #endif
 #ifdef SOLIDS
 layout(set = 0, binding = 3) uniform texture2D light_depth;  // of the solids, from the light
@@ -19,32 +19,19 @@ vec2 lightTexel(vec3 p) {
 }
 
 #ifndef CAUSTICS
-// Weights of four texels along an axis for the mean over three texels at a position between the inner two; 0 outside of the map.
-vec4 shadowWeights(ivec4 texels, float part, int size) {
-  const vec4 inside = vec4(greaterThanEqual(texels, ivec4(0))) * vec4(lessThan(texels, ivec4(size)));
-  return vec4(1.0 - part, 1.0, 1.0, part) * inside / 3.0;
-}
-
 // What of the sun's light comes through the fluid.
 vec3 throughFluid(vec3 p) {
   const vec2 at = lightTexel(p);
   if (any(lessThan(at, vec2(-2.0))) || any(greaterThan(at, vec2(scene.counts.yz) + 1.0))) return vec3(1.0);
-  const ivec2 base = ivec2(floor(at)), size = ivec2(scene.counts.yz);
+  const ivec2 border = ivec2(kShadowBorder), size = ivec2(scene.counts.yz) + 2 * border;
   const vec2 part = at - floor(at);
-  const ivec4 columns = base.x + ivec4(-1, 0, 1, 2), rows = base.y + ivec4(-1, 0, 1, 2);
-  const vec4 across = shadowWeights(columns, part.x, size.x), down = shadowWeights(rows, part.y, size.y);
-  const uvec4 x = uvec4(clamp(columns, ivec4(0), ivec4(size.x - 1)));
-  // Twice as wide as a texel is: the disc of the sun blurs the edge.
+  const ivec2 base = clamp(ivec2(floor(at)) + border, ivec2(0), size - 2);
   float meters = 0.0;
   vec3 depth = vec3(0.0), back = vec3(0.0);
   for (uint fluid = 0u; fluid < FLUIDS; ++fluid) {
-    float counts = 0.0;
-    RILL_LOOP for (int k = 0; k < 4; ++k) {
-      const uint first = (fluid * scene.counts.z + uint(clamp(rows[k], 0, size.y - 1))) * scene.counts.y;
-      const vec4 row = vec4(fluid_shadow[first + x.x], fluid_shadow[first + x.y], fluid_shadow[first + x.z], fluid_shadow[first + x.w]);
-      counts += down[k] * dot(across, row);
-    }
-    const float own = counts * look.finish.z;
+    const uint first = (fluid * uint(size.y) + uint(base.y)) * uint(size.x) + uint(base.x), second = first + uint(size.x);
+    const float own = mix(mix(fluid_shadowAt(first), fluid_shadowAt(first + 1u), part.x),
+                          mix(fluid_shadowAt(second), fluid_shadowAt(second + 1u), part.x), part.y);
     meters += own;
     depth += absorptionOf(fluid) * own;
     if (FLUIDS > 1u) back += absorptionOf(fluid) * own * scatterOf(fluid);
@@ -91,10 +78,11 @@ const uint kCausticLayers = 1u;
 vec4 causticTexel(ivec2 texel, uint first, ivec2 size, bool solid, float depth) {
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) return vec4(0.0, 0.0, 0.0, 1.0);
   const uint own = first + uint(texel.y * size.x + texel.x);
-  const vec4 light = vec4(unpackHalf2x16(caustics[own].x), unpackHalf2x16(caustics[own].y));
+  const uvec2 own_texel = causticsAt(own);
+  const vec4 light = vec4(unpackHalf2x16(own_texel.x), unpackHalf2x16(own_texel.y));
 #ifdef SOLIDS
   if (solid) {
-    const uvec2 packed = caustics[own + uint(size.x * size.y)];
+    const uvec2 packed = causticsAt(own + uint(size.x * size.y));
     const vec4 on_solid = vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
     return vec4(on_solid.rgb, on_solid.a < depth ? light.a : 1.0);
   }

@@ -3,27 +3,28 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/look_records.h"
 #include "render/surface.glsl"
+#include "shared/arrays.glsl"
 #include "views/whitewater_view_records.h"
 
 layout(std140, set = 0, binding = 0) uniform Look { LookRecord look; };
 #include "render/sky.glsl"
-layout(std430, set = 0, binding = 1) readonly buffer Dots { uint dots[]; };
+READ_UINT4(1, dots)  // layers of a pixel
 layout(location = 0) out vec4 color;
 
 const float kAlbedo = 0.85;
 const float kUnderwater = 0.7;  // of the light enters the water and leaves it again
 
+float opacityOf(uint count) { return 1.0 - exp(-float(count) / kWhiteOpacity); }
 float before(ivec2 pixel) {
   const uvec2 at = uvec2(clamp(pixel, ivec2(0), ivec2(view.width, view.height) - 1));
-  return 1.0 - exp(-float(dots[kWhiteLayers * (at.y * view.width + at.x)]) / kWhiteOpacity);
+  return opacityOf(dotsAt(at.y * view.width + at.x).x);
 }
 
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(view.left, view.top);
-  const uint first = kWhiteLayers * (uint(pixel.y) * view.width + uint(pixel.x));
-  const vec3 counts = vec3(dots[first + 1u], dots[first + 2u], dots[first + 3u]);
-  const float front = before(pixel);
-  const vec3 under = 1.0 - exp(-counts / kWhiteOpacity);
+  const uvec4 counts = dotsAt(uint(pixel.y) * view.width + uint(pixel.x));
+  const float front = opacityOf(counts.x);
+  const vec3 under = 1.0 - exp(-vec3(counts.yzw) / kWhiteOpacity);
   if (front <= 0.0 && under.r + under.g + under.b <= 0.0) discard;
   // Where the density grows there is the shaded side of a cloud of drops
   const ivec2 across = ivec2(1, 0), down = ivec2(0, 1);

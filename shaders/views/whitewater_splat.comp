@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/look_records.h"
 #include "render/surface.glsl"
+#include "shared/arrays.glsl"
 #include "views/whitewater_view_records.h"
 #include "whitewater/whitewater_records.h"
 
@@ -13,8 +14,9 @@ layout(std430, set = 0, binding = 1) readonly buffer Exposure { WhiteExposure ex
 layout(std430, set = 0, binding = 2) readonly buffer Place { vec4 place[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Motion { uvec4 motion[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Counts { uint counts[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Surface { uvec2 surface[]; };
-layout(std430, set = 0, binding = 6) readonly buffer SceneDepth { float scene_depth[]; };
+READ_UINT2(5, surface)
+#define SCENE_DEPTH 6
+#include "render/scene_depth.glsl"
 layout(std430, set = 0, binding = 7) buffer Dots { uint dots[]; };
 
 const float kSizes[3] = float[3](0.6, 1.6, 1.2);       // of spray, foam and bubbles, over the parcel's
@@ -111,9 +113,9 @@ void main() {
       if (part <= 0.0) continue;
       const uint pixel = uint(y) * view.width + uint(column);
       const float here = z + s.slope * clamp(dot(from, s.along), -0.5 * s.size, 0.5 * s.size);
-      if (here >= scene_depth[pixel]) continue;
-      const float depth = opacity * part, below = here - lift - pixelDepth(surface[pixel]);
-      if (surface[pixel].x >= kNoDepthBits || below <= 0.0) {
+      if (here >= sceneDepth(pixel)) continue;
+      const float depth = opacity * part, below = here - lift - pixelDepth(surfaceAt(pixel));
+      if (surfaceAt(pixel).x >= kNoDepthBits || below <= 0.0) {
         add(kWhiteLayers * pixel, depth);
       } else if (look.scatter.w == 0.0) {
         const vec3 through = depth * exp(-2.0 * look.absorption.rgb * below);  // light comes through as much water

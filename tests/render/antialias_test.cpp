@@ -2,15 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graph/shader_pass.hpp"
 #include "support/gpu_test.hpp"
-#include "views/antialias_record.h"
+#include "views/finish.hpp"
 #include "views/scene_buffers.hpp"
 
 namespace rill::test {
 namespace {
 
-using namespace antialias;
 using Gray = std::vector<std::vector<double>>;  ///< rows of 0 to 1
 
 class Antialias : public GpuTest {
@@ -28,14 +26,12 @@ class Antialias : public GpuTest {
     std::vector<uint32_t> first;
     for (const bool texels : {false, true}) {
       if (texels && device().info().maxTexelBufferElements < picture.size()) continue;
-      const ComputePipeline* antialias = pipeline({.shader = texels ? "views/antialias_texel" : "views/antialias"});
+      const auto finish = Finish::create(device(), !texels);
+      EXPECT_TRUE(finish) << finish.error().message;
       const Buffer source = upload("picture", picture);
       Graph graph;
       const BufferRef before = graph.import("picture", importOf(source));
-      BufferRef after = graph.create("smoothed", {picture.size() * 4});
-      const Groups groups{(width + kAntialiasGroup - 1) / kAntialiasGroup, (height + kAntialiasGroup - 1) / kAntialiasGroup, 1};
-      addDispatch(graph, "edges", antialias, groups, AntialiasPush{width, height}, {{"aliased", before}, {"picture", after}});
-      const Ticket ticket = graph.readback(after);
+      const Ticket ticket = graph.readback(finish->smoothed(graph, before, width, height));
       run(graph);
       auto words = read<uint32_t>(graph, ticket);
       if (!texels)

@@ -89,7 +89,8 @@ TEST_F(FilmPasses, MeanOfPicturesIsThatOfTheirLight) {
   ModulePipelines pipelines(device());
   const ComputePipeline* tone = pipelines.make("views/tonemap");
   BufferRef aliased = plain.create("aliased", {twice.size() * 4});
-  addDispatch(plain, "tone", tone, (twice.size() + 63) / 64, 1.0f, {{"hdr", image(plain, source, kWidth, kHeight)}, {"aliased", aliased}});
+  addDispatch(plain, "tone", tone, Groups{(kWidth + 7) / 8, (kHeight + 7) / 8, 1}, 1.0f,
+              {{"hdr", image(plain, source, kWidth, kHeight)}, {"aliased", aliased}});
   const Ticket ticket = plain.readback(aliased);
   run(plain);
   const auto expected = read<std::array<uint8_t, 4>>(plain, ticket), got = read<std::array<uint8_t, 4>>(graph, shown);

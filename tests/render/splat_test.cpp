@@ -134,12 +134,14 @@ TEST_F(ParticlesToSamples, ThicknessIsTheSumOfDiscs) {
   for (size_t i = 0; i < wall.size(); ++i) wall[i] = i % 64 < 32 ? 3.0f : 100.0f;  // its left half hides what is farther away
   const auto particles = scattered({-2, -1.5, -5}, {2, 1.5, -1}, 1500);
   fill(particles);
-  const Buffer wallBuffer = upload("wall", wall);
   for (const auto& [view, step] : {std::pair{eye, 1u}, {eye, 8u}, {orthographic(1.2, eye), 2u}, {orthographic(0.3, eye), 4u}})
     for (const bool scene : {false, true}) {
       Graph graph;
       const FluidState fluid = state(graph);
       const SurfacePush push = SurfaceStage::thicknessPush(pushOf(view, step, count_), fluid, step);
+      std::vector<float> target;  // as the depth target holds the wall
+      for (const float z : wall) target.push_back(push.depth_map[0] + push.depth_map[1] * (push.perspective > 0 ? 1 / z : z));
+      const Buffer wallBuffer = upload("wall", target);
       const BufferRef depth = scene ? graph.import("wall", importOf(wallBuffer)) : BufferRef{};
       const Ticket ticket = graph.readback(renderer().surface.addThickness(graph, kFluidThickness, fluid, push, depth, nullptr));
       run(graph);

@@ -89,7 +89,7 @@ class ToneMap : public GpuTest {
       return [=](Commands& commands) { commands.copy(in, image); };
     });
     BufferRef picture = graph.create("picture", {texels.size() * 4});
-    addDispatch(graph, "tone", tonemap, (texels.size() + 63) / 64, gain, {{"hdr", image}, {"aliased", picture}});
+    addDispatch(graph, "tone", tonemap, Groups{(kRow + 7) / 8, (rows + 7) / 8, 1}, gain, {{"hdr", image}, {"aliased", picture}});
     const Ticket ticket = graph.readback(picture);
     run(graph);
     auto bytes = read<std::array<uint8_t, 4>>(graph, ticket);

@@ -76,7 +76,6 @@ class WhitewaterViewTest : public GpuTest {
     std::vector<uint32_t> counts(kWhiteCountWords);
     counts[kWhiteCount] = uint32_t(parcels.size());
     const Buffer place = upload("place", places), motion = upload("motion", motions), count = upload("counts", counts);
-    const Buffer depth = upload("scene depth", scene);
     const Buffer none = upload("surface", std::vector<std::array<uint32_t, 2>>(kWidth * kHeight, {kNoDepthBits, 0}));
     Graph graph;
     const surface::SurfacePush push = [&] {
@@ -84,6 +83,9 @@ class WhitewaterViewTest : public GpuTest {
       p.spacing = kSpacing;
       return p;
     }();
+    std::vector<float> target;  // as the depth target holds the scene
+    for (const float z : scene) target.push_back(push.depth_map[0] + push.depth_map[1] * (push.perspective > 0 ? 1 / z : z));
+    const Buffer depth = upload("scene depth", target);
     const WhitewaterView::Input input{{graph.import("place", importOf(place)), graph.import("motion", importOf(motion)),
                                        graph.import("counts", importOf(count)), uint32_t(parcels.size())},
                                       {},
