@@ -99,7 +99,7 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
        [](const ArrayShape& s) { return s.solids > 0 || s.emitters > 0 ? s.particles : 0; }, Account::Particles},
       {NearTangential, "nearTangential", "tangential scales at solids", Fluid, kVector,
        [](const ArrayShape& s) { return s.solids > 0 ? withDummy(s) : 0; }, Account::Particles},
-      {NearExcess, "nearExcess", "corrections by scales of neighbors", Fluid, kVector,
+      {NearCorrection, "nearCorrection", "corrections near solids", Fluid, kVector,
        [](const ArrayShape& s) { return 2 * perParticleIfSolids(s); }, Account::Particles},
       {NearStiffness, "nearStiffness", "stiffness of bodies", Fluid, kWord,
        [](const ArrayShape& s) { return s.bodies > 0 ? s.particles : 0; }, Account::Particles},

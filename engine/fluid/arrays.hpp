@@ -59,7 +59,7 @@ enum class FluidArray : uint8_t {
   Cell,
   NearDisplaced,
   NearTangential,
-  NearExcess,
+  NearCorrection,
   NearStiffness,
   NearSolids,
   NearMouths,

@@ -29,8 +29,7 @@ layout(std430, binding = 12) buffer WarmAccelerationBlock { vec4 warmAcceleratio
 // before the solve: what contacts with solids compare with; w: the prediction's
 layout(std430, binding = 13) writeonly buffer FreeBlock { vec4 freeVelocity[]; };
 layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
-READ_NEAR_TANGENTIAL(15)
-READ_FLOAT4(17, nearExcess)  // of pairs.comp
+READ_FLOAT4(15, nearCorrection)  // of pairs.comp
 // LOADS, near solids: by what the gradient of the displaced density is multiplied in this substep, and in the warm start of the next, m^2
 layout(std430, binding = 16) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };
 
@@ -72,33 +71,32 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   return kept < 1.0 ? planned + kept * pushed : difference;
 }
 
-// What solids and mouths add to the corrections.
-void addSolids(uint i, uint head) {
-  vec3 displaced = SOLIDS || MOUTHS ? unit * displacedAt(i, head).xyz : vec3(0.0);
-  if (SOLIDS) {
-    SolidScale scale = solidScaleAt(i, head);  // see docs/notes/walls-and-solids.md
-    bool atSolids = (head & kNearSolidsBit) != 0u;
-    vec3 excess = atSolids ? nearExcessAt(2u * i).xyz : vec3(0.0), warmExcess = atSolids ? nearExcessAt(2u * i + 1u).xyz : vec3(0.0);
-    correction += scaledExcess(scale, correction) + excess + own.x * displaced;
-    warmDisplacement += scaledExcess(scale, warmDisplacement) + warmExcess + own.y * displaced;
-  } else if (MOUTHS) {
+// Whether pairs.comp has summed up the corrections.
+bool isNearSolids(uint head) { return SOLIDS && (head & kNearSolidsBit) != 0u; }
+
+// The sums over neighbors in meters, and what mouths add; near solids what pairs.comp has summed up.
+void endSums(uint i, uint head) {
+  correction *= unit * params.gradientScale;
+  warmDisplacement *= unit * params.gradientScale;
+  if (MOUTHS) {
+    vec3 displaced = unit * displacedAt(i, head).xyz;
     correction += own.x * displaced;
     warmDisplacement += own.y * displaced;
   }
+  if (!isNearSolids(head)) return;
+  correction = nearCorrectionAt(2u * i).xyz;
+  warmDisplacement = nearCorrectionAt(2u * i + 1u).xyz;
 }
 
 // Of a particle that sleeps: what would move it, for rest_motion.comp.
 void storeAcceleration(uint i, uint head) {
-  warmDisplacement *= unit * params.gradientScale;
-  addSolids(i, head);
+  endSums(i, head);
   if (WARM) warmAcceleration[i] = vec4(inverseMass * warmDisplacement / (control.warmStep * control.warmStep), 0.0);
 }
 
 // Speed of the particle (m/s), whose substep ends here.
 float endSubstep(uint i, uint head) {
-  correction *= unit * params.gradientScale;
-  warmDisplacement *= unit * params.gradientScale;
-  addSolids(i, head);
+  endSums(i, head);
   correction *= inverseMass;
   warmDisplacement *= inverseMass;
 
@@ -144,7 +142,7 @@ float endSubstep(uint i, uint head) {
     warm[i] = min(0.0, found + momentum * (found - lastAcceleration.w));
   }
   position[i] = vec4(to, storedFluid(fluid));
-  if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = finite ? unit * vec2(kept * own.x, own.y) : vec2(0.0);
+  if (LOADS && isNearSolids(head)) nearMultipliers[i] = finite ? unit * vec2(kept * own.x, own.y) : vec2(0.0);
   if (SOLIDS) freeVelocity[i] = vec4(before + control.step * gravity(), numberOfPrediction(prediction[i].w));
   velocity[i] = vec4(v, 1.0);
   if (WARM) warmAcceleration[i] = vec4(acceleration, found);
@@ -165,7 +163,8 @@ void main() {
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
   bool gathers = moves || (inRange && gathersAsleep());
-  visitNeighbors(i, gathers ? head : 0u, local, gathers);
+  bool visits = gathers && !isNearSolids(head);
+  visitNeighbors(i, visits ? head : 0u, local, visits);
   // No lane leaves before the maximum: those that are left need not come together again.
   float speed = moves ? endSubstep(i, head) : 0.0;
   if (REGIONS && gathers && !moves) storeAcceleration(i, head);

@@ -16,8 +16,7 @@ layout(local_size_x = kFluidGroup) in;
 layout(push_constant) uniform Push { ChunkPush push; };
 layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
 READ_NEAR_DISPLACED(9)
-READ_NEAR_TANGENTIAL(10)
-READ_FLOAT4(12, nearExcess)  // of pairs.comp
+READ_FLOAT4(10, nearCorrection)  // of pairs.comp
 layout(std430, binding = 11) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };  // as in correct.comp
 
 vec3 here;
@@ -44,15 +43,14 @@ void main() {
   own = unpackHalf2x16(particle.w).x;
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
-  visitNeighbors(i, moves ? head : 0u, local, moves);
+  bool nearSolids = SOLIDS && (head & kNearSolidsBit) != 0u, visits = moves && !nearSolids;
+  visitNeighbors(i, visits ? head : 0u, local, visits);
   if (!moves) return;
   moved *= unit * params.gradientScale;
-  if (SOLIDS) {
-    vec3 excess = (head & kNearSolidsBit) != 0u ? nearExcessAt(2u * i).xyz : vec3(0.0);
-    moved += scaledExcess(solidScaleAt(i, head), moved) + excess + unit * own * displacedAt(i, head).xyz;
-    if (LOADS && (head & kNearSolidsBit) != 0u) nearMultipliers[i] = vec2(unit * own, 0.0);
-  } else if (MOUTHS) {
-    moved += unit * own * displacedAt(i, head).xyz;
+  if (MOUTHS) moved += unit * own * displacedAt(i, head).xyz;
+  if (nearSolids) {
+    moved = nearCorrectionAt(2u * i).xyz;
+    if (LOADS) nearMultipliers[i] = vec2(unit * own, 0.0);
   }
   prediction[i] = vec4(insideWalls(here + inverseMassOf(fluidOfWork(particle)) * moved), prediction[i].w);
 }

@@ -1,6 +1,7 @@
 #version 460
-// What the tangential scales of neighbors add to the corrections of the particles near solids (docs/notes/walls-and-solids.md): of the
-// correction, and of the warm start. Gathers from `work`.
+// The corrections of the particles near solids, and of their warm start: what the neighbors give them as any other, what the tangential
+// scales of both add (docs/notes/walls-and-solids.md), and what solids and mouths give. A pass of its own, since other particles would
+// pay for the scales as well. Gathers from `work`.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
@@ -16,14 +17,16 @@
 layout(local_size_x = kFluidGroup) in;
 
 layout(push_constant) uniform Push { ChunkPush push; };
-READ_FLOAT4(8, nearTangential)
+READ_NEAR_TANGENTIAL(8)
 READ_UINT4(9, nearSolids)
-layout(std430, binding = 10) writeonly buffer ExcessBlock { vec4 nearExcess[]; };  // m, two of each particle, of a mass of 1
+READ_NEAR_DISPLACED(10)
+layout(std430, binding = 11) writeonly buffer CorrectionBlock { vec4 nearCorrection[]; };  // m, two of each particle, of a mass of 1
 
 vec3 here;
 vec2 own;  // multiplier change, warm start; in the unit
 float inverseMass;
-vec3 excess = vec3(0.0), warmExcess = vec3(0.0);
+vec3 correction = vec3(0.0), warmDisplacement = vec3(0.0);  // m, once scaled
+vec3 excess = vec3(0.0), warmExcess = vec3(0.0);            // of these, what the scales of neighbors add
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 // Iterations before the last have none.
@@ -33,13 +36,18 @@ float pressure = push.iteration == 0u ? control.artificialPressure * kMultiplier
 void visit(uvec4 particle, vec4 tangential) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
   float distance = sqrt(dot(r, r));
-  vec3 gradient = scaledExcess(unpackSolidScale(tangential), gradientShape(distance) * r);
+  vec3 gradient = gradientShape(distance) * r, more = scaledExcess(unpackSolidScale(tangential), gradient);
   vec2 both = own + unpackHalf2x16(particle.w);
   if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOfWork(particle)));
-  excess += both.x * gradient;
-  warmExcess += both.y * gradient;
+  correction += both.x * gradient;
+  excess += both.x * more;
+  if (!WARM) return;
+  warmDisplacement += both.y * gradient;
+  warmExcess += both.y * more;
 }
 void reflectSums(vec3 signs) {
+  correction *= signs;
+  warmDisplacement *= signs;
   excess *= signs;
   warmExcess *= signs;
 }
@@ -56,9 +64,16 @@ void main() {
   here = uintBitsToFloat(particle.xyz);
   own = unpackHalf2x16(particle.w);
   inverseMass = inverseMassOf(fluidOfWork(particle));
-  visitNeighbors(i, headOf(i, inRange), inRange ? i - push.first : 0u, inRange);
+  uint head = headOf(i, inRange);
+  visitNeighbors(i, head, inRange ? i - push.first : 0u, inRange);
   if (!inRange) return;
   float toMeters = unit * params.gradientScale;
-  nearExcess[2u * i] = vec4(toMeters * excess, 0.0);
-  nearExcess[2u * i + 1u] = vec4(toMeters * warmExcess, 0.0);
+  correction *= toMeters;
+  warmDisplacement *= toMeters;
+  SolidScale scale = solidScaleAt(i, head);
+  vec3 displaced = unit * displacedAt(i, head).xyz;
+  correction += scaledExcess(scale, correction) + toMeters * excess + own.x * displaced;
+  warmDisplacement += scaledExcess(scale, warmDisplacement) + toMeters * warmExcess + own.y * displaced;
+  nearCorrection[2u * i] = vec4(correction, 0.0);
+  nearCorrection[2u * i + 1u] = vec4(warmDisplacement, 0.0);
 }

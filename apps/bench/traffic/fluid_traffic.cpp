@@ -47,7 +47,7 @@ double touched(const FluidPassRow& pass, const ArrayRow& row, double covered, co
     case FluidArray::NearDisplaced:
       return std::min(covered, counts.nearSolids + counts.nearMouths);
     case FluidArray::NearTangential:  // the list head says which particles are near: only those read the samples (solid_samples.glsl)
-    case FluidArray::NearExcess:
+    case FluidArray::NearCorrection:
     case FluidArray::NearStiffness:
     case FluidArray::NearMultipliers:
     case FluidArray::NearSolids:
