@@ -7,6 +7,7 @@
 #include "shared/arrays.glsl"
 READ_UINT(9, meshWord)
 #define MESH_WORDS
+#include "shared/loops.glsl"
 #include "shared/pose.glsl"
 #include "shared/shape.glsl"
 layout(local_size_x = kFluidGroup) in;
@@ -156,6 +157,12 @@ bool pointAt(out uint n, out uint candidates) {
 }
 #endif
 
+// How deep a sphere is in the wall at a side of the domain.
+float depthAtWall(uint side, vec3 center, float radius) {
+  uint a = side >> 1;
+  return radius - ((side & 1u) != 0u ? wallsHigh()[a] - center[a] : center[a] - wallsLow()[a]);
+}
+
 void main() {
   uint n, candidates, found = 0u;
   if (!pointAt(n, candidates)) return;
@@ -166,30 +173,35 @@ void main() {
   PoseRecord pose = solidAt(own).pose;
   vec3 center = centerOf(pose) + toScene(pose, vec3(point.x, point.y, point.z));
   float margin = kCounts ? contactMargin() : 0.0;
-  for (uint side = 0u; side < 6u && (candidates & kMayTouchWalls) != 0u; ++side) {
-    uint a = side >> 1;
-    bool upper = (side & 1u) != 0u;
-    float depth = point.radius - (upper ? wallsHigh()[a] - center[a] : center[a] - wallsLow()[a]);
-    if (depth <= -margin) continue;
-    found |= kMayTouchWalls;
-    vec3 normal = vec3(0.0);
-    normal[a] = upper ? -1.0 : 1.0;
-    vec3 at = center - point.radius * normal;
-    Partner partner = partnerOf(own, at);
-    touch(partner, Partner(kWallPartner + side, kNoBody, partner.friction, 0.0, vec3(0.0), vec3(0.0)), at, normal, depth);
-  }
-  for (uint left = candidates & ~kMayTouchWalls; left != 0u; left &= left - 1u) {
-    uint m = uint(findLSB(left)), k = touched[body].solids[m];
+  // One loop over walls, then solids: CPU drivers execute what is in a loop at least once.
+  uint sides = 0u, left = candidates & ~kMayTouchWalls;
+  for (uint side = 0u; side < 6u; ++side) sides |= uint(depthAtWall(side, center, point.radius) > -margin) << side;
+  if ((candidates & kMayTouchWalls) == 0u) sides = 0u;
+  bool more = (sides | left) != 0u;
+  LOOP_WHILE (more) {
+    bool wall = sides != 0u;
+    uint side = wall ? uint(findLSB(sides)) : 0u, m = left != 0u ? uint(findLSB(left)) : 0u, k = wall ? own : touched[body].solids[m];
     SolidRecord s = solidAt(k);
-    if (isBeyond(centerOf(s.pose), s.radius, center, point.radius + params.spacing)) continue;
     vec3 normal;
-    float depth = point.radius - surfaceDistance(s.shape, localPoint(s.pose, center), normal);
-    if (depth <= -margin) continue;
-    found |= 1u << m;
-    normal = toScene(s.pose, normal);
-    vec3 at = center - point.radius * normal;
-    touch(partnerOf(own, at), partnerOf(k, at), at, normal, depth);
-  }
+    float depth = -margin;
+    if (wall) {
+      depth = depthAtWall(side, center, point.radius);
+      normal = mix(vec3(0.0), vec3((side & 1u) != 0u ? -1.0 : 1.0), equal(uvec3(side >> 1), uvec3(0u, 1u, 2u)));
+    } else if (!isBeyond(centerOf(s.pose), s.radius, center, point.radius + params.spacing)) {
+      depth = point.radius - surfaceDistance(s.shape, localPoint(s.pose, center), normal);
+      normal = toScene(s.pose, normal);
+    }
+    if (depth > -margin) {
+      found |= wall ? kMayTouchWalls : 1u << m;
+      vec3 at = center - point.radius * normal;
+      Partner partner = partnerOf(own, at), other = partnerOf(k, at);
+      if (wall) other = Partner(kWallPartner + side, kNoBody, partner.friction, 0.0, vec3(0.0), vec3(0.0));
+      touch(partner, other, at, normal, depth);
+    }
+    if (wall) sides &= sides - 1u;
+    else left &= left - 1u;
+    more = (sides | left) != 0u;
+  } LOOP_END(more);
   slips[n] = kCounts ? counted : slip;
 #ifdef COUNTS
   listPoint(n, found);
