@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -16,6 +17,8 @@
 
 namespace rill::apps {
 namespace {
+
+constexpr double kRandoms = 1 << 24;  ///< random numbers of whitewater are below
 
 struct Vertex {
   float position[3];
@@ -62,12 +65,13 @@ std::vector<std::byte> encodePly(const offline::Particles& particles, double tim
 
 std::vector<std::byte> encodeWhitewaterPly(const offline::DiffuseParticles& particles, double time_s) {
   const size_t count = particles.positions.size();
-  assert(particles.velocities.size() == count && particles.ages.size() == count && particles.classes.size() == count);
+  assert(particles.velocities.size() == count && particles.ages.size() == count && particles.classes.size() == count &&
+         particles.randoms.size() == count);
   std::string header = headOf(time_s, "comment class 0 spray, 1 foam, 2 bubble\n", count);
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "age"}) header += std::string("property float ") + name + "\n";
-  header += "property uchar class\nend_header\n";
+  header += "property uint random\nproperty uchar class\nend_header\n";
 
-  constexpr size_t kBytes = 29;  // seven floats and a byte
+  constexpr size_t kBytes = 33;  // seven floats, a word and a byte
   std::vector<std::byte> bytes(header.size() + count * kBytes);
   std::memcpy(bytes.data(), header.data(), header.size());
   std::byte* next = bytes.data() + header.size();
@@ -75,14 +79,15 @@ std::vector<std::byte> encodeWhitewaterPly(const offline::DiffuseParticles& part
     const Float3 &p = particles.positions[i], &v = particles.velocities[i];
     const float numbers[7] = {p.x, p.y, p.z, v.x, v.y, v.z, particles.ages[i]};
     std::memcpy(next, numbers, sizeof numbers);
-    next[sizeof numbers] = static_cast<std::byte>(particles.classes[i]);
+    std::memcpy(next + sizeof numbers, &particles.randoms[i], sizeof(uint32_t));
+    next[sizeof numbers + sizeof(uint32_t)] = static_cast<std::byte>(particles.classes[i]);
   }
   return bytes;
 }
 
 Expected<offline::DiffuseParticles> readWhitewaterPly(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 8> kNames{"x", "y", "z", "vx", "vy", "vz", "class", "age"};
-  constexpr size_t kClass = 6, kAge = 7;
+  constexpr std::array<std::string_view, 9> kNames{"x", "y", "z", "vx", "vy", "vz", "class", "age", "random"};
+  constexpr size_t kClass = 6, kAge = 7, kRandom = 8;
   const auto header = ply::readHeader(file, "vertex");
   if (!header) return header.error();
   if (header->elements.empty() || header->elements.back().name != "vertex")
@@ -111,11 +116,15 @@ Expected<offline::DiffuseParticles> readWhitewaterPly(const std::filesystem::pat
       if (!fitsFloat(v[kAge]))
         return header->badInput("vertex " + grouped(i) + ", property \"age\": found " + shortestNumber(v[kAge]) +
                                 ", expected a finite number");
+      if (!(v[kRandom] >= 0 && v[kRandom] < kRandoms && v[kRandom] == std::floor(v[kRandom])))
+        return header->badInput("vertex " + grouped(i) + ", property \"random\": found " + shortestNumber(v[kRandom]) +
+                                ", expected a whole number from 0 to 16,777,215");
       const auto number = [&](size_t k) { return static_cast<float>(v[k]); };
       all.positions.push_back({number(0), number(1), number(2)});
       all.velocities.push_back({number(3), number(4), number(5)});
       all.ages.push_back(number(kAge));
       all.classes.push_back(static_cast<WhitewaterClass>(v[kClass]));
+      if (column[kRandom] >= 0) all.randoms.push_back(static_cast<uint32_t>(v[kRandom]));
     }
   }
   return all;

@@ -106,10 +106,12 @@ class Player::Impl {
     if (count > kMaxPlayedWhitewater)
       return Error{ErrorKind::TooLarge,
                    std::to_string(count) + " particles of whitewater; expected at most " + std::to_string(kMaxPlayedWhitewater)};
-    if (white.velocities.size() == count && white.classes.size() == count && white.ages.size() == count) return {};
+    const bool randoms = white.randoms.empty() || white.randoms.size() == count;
+    if (white.velocities.size() == count && white.classes.size() == count && white.ages.size() == count && randoms) return {};
     return Error{ErrorKind::BadInput, "found " + std::to_string(count) + " positions, " + std::to_string(white.velocities.size()) +
-                                          " velocities, " + std::to_string(white.ages.size()) + " ages and " +
-                                          std::to_string(white.classes.size()) + " classes of whitewater, expected equal numbers"};
+                                          " velocities, " + std::to_string(white.ages.size()) + " ages, " +
+                                          std::to_string(white.classes.size()) + " classes and " + std::to_string(white.randoms.size()) +
+                                          " random numbers of whitewater, expected equal numbers, or no random numbers"};
   }
 
   Expected<void> setWhitewater(const DiffuseParticles& white) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "views/whitewater_view_records.h"
 #include "whitewater/whitewater_records.h"
 
 namespace rill::offline {
@@ -13,6 +14,7 @@ namespace {
 
 /// Diffuse particles that stand for as much volume as the fluid has. It does not depend on the spacing, so nor does the emission.
 constexpr double kParcels = 1'500'000;
+constexpr uint32_t kRandomShift = 8;  ///< of a tag; below are its class and bits that pictures do not use
 
 template <class Record>
 std::vector<Record> wholeRecords(std::span<const std::byte> bytes) {
@@ -69,6 +71,7 @@ DiffuseParticles diffuseParticles(const WhitewaterSnapshot& state, const Double3
     all.velocities.push_back({std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z)});
     all.ages.push_back(p.w);
     all.classes.push_back(static_cast<WhitewaterClass>(tag & 3));
+    all.randoms.push_back(tag >> kRandomShift);
   }
   return all;
 }
@@ -81,8 +84,9 @@ WhitewaterSnapshot whitewaterSnapshot(const DiffuseParticles& particles, const D
     const Float3 &p = particles.positions[k], &v = particles.velocities[k];
     state.place.push_back(
         {static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y), static_cast<float>(p.z - origin.z), particles.ages[k]});
+    const uint32_t random = particles.randoms.empty() ? kWhiteMeanTag : particles.randoms[k] << kRandomShift;
     state.motion.push_back({std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z),
-                            static_cast<uint32_t>(particles.classes[k])});
+                            random | static_cast<uint32_t>(particles.classes[k])});
   }
   return state;
 }

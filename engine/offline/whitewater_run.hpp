@@ -25,7 +25,7 @@ WhitewaterTickets whitewaterReadout(Graph& graph, const WhitewaterState& state);
 /// The state that was read back. The frame must have completed.
 WhitewaterSnapshot collectWhitewater(const Graph& graph, const WhitewaterTickets& tickets);
 DiffuseParticles diffuseParticles(const WhitewaterSnapshot& state, const Double3& origin);
-/// Inverse of diffuseParticles(), to be drawn: without figures since the start and random bits.
+/// Inverse of diffuseParticles(), to be drawn: without figures since the start, and with the random bits that pictures use.
 WhitewaterSnapshot whitewaterSnapshot(const DiffuseParticles& particles, const Double3& origin);
 
 }  // namespace rill::offline

@@ -21,7 +21,6 @@ layout(std430, set = 0, binding = 7) buffer Dots { uint dots[]; };
 
 const float kSizes[3] = float[3](0.6, 1.6, 1.2);       // of spray, foam and bubbles, over the parcel's
 const float kOpacities[3] = float[3](0.9, 0.3, 0.2);   // optical depth in the middle
-const float kWhiteMostArea = 6.0;                      // over the mean
 const float kLeastLength = 0.05;                       // radii; shorter streaks are dots
 
 float rounding = 0.5;
@@ -79,7 +78,7 @@ ivec2 columnsOf(Streak s, float row) {
 }
 
 // Over the mean of its class: areas are distributed exponentially, as drops and bubbles are of many sizes.
-float sizeOf(uint tag) { return sqrt(min(-log((float(tag >> 8u & 0xffffu) + 0.5) / 65536.0), kWhiteMostArea)); }
+float sizeOf(uint tag) { return sqrt(min(-log((float(tag >> 8u & 0xffffu) + 0.5) / 65536.0), kWhiteMaxArea)); }
 
 void main() {
   const uint k = groupIndex() * kWhiteSplatGroup + gl_LocalInvocationIndex;

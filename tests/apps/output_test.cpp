@@ -97,16 +97,17 @@ TEST(Ply, EncodesWhitewaterWithClasses) {
   particles.velocities = {{-1, 0, 0.5f}, {0, 0, 7}};
   particles.ages = {0.25f, 1.5f};
   particles.classes = {WhitewaterClass::Spray, WhitewaterClass::Bubble};
+  particles.randoms = {0, (1 << 24) - 1};
   const auto bytes = encodeWhitewaterPly(particles, 0.25);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string header =
       "ply\nformat binary_little_endian 1.0\ncomment time 0.25\ncomment class 0 spray, 1 foam, 2 bubble\nelement vertex 2\n"
       "property float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float vy\nproperty float vz\nproperty float "
-      "age\nproperty uchar class\nend_header\n";
+      "age\nproperty uint random\nproperty uchar class\nend_header\n";
   ASSERT_EQ(text.substr(0, header.size()), header);
-  ASSERT_EQ(bytes.size(), header.size() + 2 * 29);
+  ASSERT_EQ(bytes.size(), header.size() + 2 * 33);
   float values[7];
-  std::memcpy(values, bytes.data() + header.size() + 29, sizeof values);
+  std::memcpy(values, bytes.data() + header.size() + 33, sizeof values);
   EXPECT_EQ(values[0], 4);
   EXPECT_EQ(values[5], 7);
   EXPECT_EQ(values[6], 1.5f);

@@ -112,6 +112,8 @@ TEST(Play, RefusesBadWhitewater) {
             std::string::npos);
   EXPECT_NE(errorOf(of + end + "0 inf 0 0 0 0 1\n").find("vertex 0: the position is"), std::string::npos);
   EXPECT_NE(errorOf(of + "property float age\n" + end + "0 0 0 0 0 0 1 nan\n").find("property \"age\""), std::string::npos);
+  EXPECT_NE(errorOf(of + "property float random\n" + end + "0 0 0 0 0 0 1 0.5\n").find("property \"random\": found 0.5, expected"),
+            std::string::npos);
   EXPECT_NE(errorOf(of + end + "0 0 0 0 0 0").find("a.whitewater.ply"), std::string::npos) << "cut off";
   EXPECT_NE(errorOf("").find("a.whitewater.ply"), std::string::npos) << "empty";
 }
@@ -248,6 +250,9 @@ TEST(Play, LibraryDrawsEveryViewCleanUnderValidation) {
   EXPECT_FALSE(player->show({.positions = positions, .fluids = {0}}));
   EXPECT_TRUE(player->show({.positions = positions, .fluids = std::vector<uint8_t>(positions.size(), 0)}));
   EXPECT_FALSE(player->show({.positions = positions, .fluids = std::vector<uint8_t>(positions.size(), 1)})) << "the scene has one fluid";
+  white.randoms = {1, 2};
+  EXPECT_FALSE(player->show({.positions = positions, .whitewater = white}));
+  white.randoms.clear();
   white.classes.pop_back();
   EXPECT_FALSE(player->show({.positions = positions, .whitewater = white}));
   for (const std::string& text : player->takeValidationMessages()) ADD_FAILURE() << text;

@@ -22,13 +22,10 @@ namespace whitewater_view_test {
 constexpr uint32_t kWidth = 320, kHeight = 240;
 constexpr float kSpacing = 0.1f;
 
-/// Random bits of a parcel of mean size: exp(-1) of 2^16 in the middle, and rounding by a half.
-constexpr uint32_t kMeanBits = 0x80000000u | uint32_t(0.36788 * 65536) << 8;
-
 struct Parcel {
   Float3 position, velocity;
   uint32_t kind = kWhiteSpray;
-  uint32_t bits = kMeanBits;
+  uint32_t bits = kWhiteMeanTag;
 };
 
 /// Optical depth of the pixels before the fluid: its sum, mean position and second moments about it, in pixels.

@@ -85,6 +85,7 @@ struct DiffuseParticles {
   std::vector<Float3> velocities = {};  ///< m/s
   std::vector<float> ages = {};         ///< s, as foam or spray; bubbles age at a quarter of the rate
   std::vector<WhitewaterClass> classes = {};
+  std::vector<uint32_t> randoms = {};  ///< below 2^24: pictures take sizes from them. None at all: all have the mean size
 };
 
 /// The surface of the fluid at one time as a closed triangle mesh; see rill/surface_mesher.hpp.
