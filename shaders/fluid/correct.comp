@@ -71,9 +71,6 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
   return kept < 1.0 ? planned + kept * pushed : difference;
 }
 
-// Whether pairs.comp has summed up the corrections.
-bool isNearSolids(uint head) { return SOLIDS && (head & kNearSolidsBit) != 0u; }
-
 // The sums over neighbors in meters, and what mouths add; near solids what pairs.comp has summed up.
 void endSums(uint i, uint head) {
   correction *= unit * params.gradientScale;
@@ -163,7 +160,7 @@ void main() {
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
   bool gathers = moves || (inRange && gathersAsleep());
-  bool visits = gathers && !isNearSolids(head);
+  bool visits = gathers && !isNearSolids(head);  // of the others pairs.comp has the sums
   visitNeighbors(i, visits ? head : 0u, local, visits);
   // No lane leaves before the maximum: those that are left need not come together again.
   float speed = moves ? endSubstep(i, head) : 0.0;

@@ -43,7 +43,7 @@ void main() {
   own = unpackHalf2x16(particle.w).x;
   uint head = headOf(i, inRange);
   bool moves = inRange && !sleeps(head);
-  bool nearSolids = SOLIDS && (head & kNearSolidsBit) != 0u, visits = moves && !nearSolids;
+  bool nearSolids = isNearSolids(head), visits = moves && !nearSolids;
   visitNeighbors(i, visits ? head : 0u, local, visits);
   if (!moves) return;
   moved *= unit * params.gradientScale;

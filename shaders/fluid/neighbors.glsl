@@ -73,6 +73,7 @@ uint headOf(uint i, bool inRange) {
 
 // Whether the particle with this head is in a region that sleeps: it stays where it is.
 bool sleeps(uint head) { return REGIONS && (head & kAsleepBit) != 0u; }
+bool isNearSolids(uint head) { return SOLIDS && (head & kNearSolidsBit) != 0u; }
 bool gathersAsleep() { return REGIONS && control.regionTime <= 1.01 * control.step; }  // what sleeps, once for each list
 
 #ifndef IMAGES

@@ -158,7 +158,7 @@ vec3 weigh(inout Samples open, vec4 solid) {
 bool expose(uint i, uint head, uint fluid) {
   EACH_PART(k) samples.part[k] = max(1.0 - kTensionAmplitude * samples.part[k], vec4(0.0));
   if (WALLS || SOLIDS) {
-    bool nearSolids = SOLIDS && (head & kNearSolidsBit) != 0u;
+    bool nearSolids = isNearSolids(head);
     vec3 force = weigh(samples, nearSolids ? solidPlaneAt(i) : vec4(0.0, 1.0, 0.0, kNoWall));
     velocity[i].xyz += control.step * params.tensionWall * tensionOf(fluid) * inverseMassOf(fluid) * force;
   }
