@@ -262,7 +262,8 @@ PictureTickets Painter::declareSample(Graph& graph, const FluidState& fluid, con
   const CameraView eye = camera(width, height, time_s + since);
   const FluidView seen = fluidView(eye, width, height, scene_.fluid.spacing, cameraOffset(film_, sample, eye));
   sum_->add(graph, addLight(graph, state, seen, time_s + since, drawn), k == 0);
-  graph.skipped("picture edges", "a mean of several pictures has smooth ones");
+  for (const char* name : {"picture tone", "picture copy", "picture edge search", "picture edges"})
+    graph.skipped(name, "a mean of several pictures has smooth edges, and a tone curve of its own");
   PictureTickets tickets;
   if (fluid.capacity > 0) tickets.counters = graph.readback(implOf(*fluid_).last.counters);
   return tickets;

@@ -87,7 +87,7 @@ SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& 
   return push;
 }
 
-/// A copy costs a tenth of a pass that reads images, but needs an image that can be copied from, which those of a host need not be.
+/// A copy costs less than a pass that reads images, but needs an image that can be copied from, which those of a host need not be.
 FluidRendererImpl::SceneCopy FluidRendererImpl::copyScene(Graph& graph, const SceneTargets& targets, bool whole) const {
   const SurfacePush& push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;

@@ -51,9 +51,9 @@ BufferRef Finish::smoothed(Graph& graph, BufferRef aliased, uint32_t width, uint
     picture = pass.write(picture, Use::CopyTarget, true);
     counts = pass.write(counts, Use::CopyTarget, true);
     return [aliased, picture, counts, bytes](Commands& commands) {
-      constexpr uint32_t kNone[] = {0, kEdgeRows, 1, 0};
+      constexpr uint32_t kNoEdges[] = {0, kEdgeRows, 1, 0};
       commands.copy(aliased, picture, bytes);
-      commands.update(counts, std::as_bytes(std::span(kNone)));
+      commands.update(counts, std::as_bytes(std::span(kNoEdges)));
     };
   });
   const AntialiasPush push{width, height};

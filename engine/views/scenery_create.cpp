@@ -15,8 +15,7 @@ constexpr Double3 kBehindTank = {-0.5, 0.9, -0.65};  // the studio's light: ligh
 /// The table that a tank stands on above the sea of a clear sky.
 void addTable(particle_view::SceneRecord& scene) {
   const float size = std::max(scene.domain_max.x - scene.domain_min.x, scene.domain_max.z - scene.domain_min.z);
-  scene.light_texel.z = 0.15f * size;
-  scene.light_texel.w = 0.05f * size;
+  scene.table = {0.15f * size, 0.05f * size, 0, 0};
 }
 
 }  // namespace

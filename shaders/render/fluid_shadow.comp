@@ -2,7 +2,6 @@
 // Thickness of each fluid towards the light, m: of a texel the mean over three by three, because the disc of the sun blurs edges. A border
 // of kShadowBorder texels, most of it 0, spares readers a test.
 #extension GL_GOOGLE_include_directive : require
-#include "shared/dont_unroll.glsl"
 #include "render/surface_records.h"
 
 layout(local_size_x = kSurfaceTile, local_size_y = kSurfaceTile) in;

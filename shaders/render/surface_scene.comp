@@ -14,7 +14,7 @@ void main() {
   const uint index = groupIndex() * kSurfaceGroup + gl_LocalInvocationIndex;
   if (index >= view.width * view.height) return;
   const ivec2 pixel = ivec2(index % view.width + view.left, index / view.width + view.top);
-  const vec4 color = texelFetch(host_color, pixel, 0);
+  const vec4 color = min(texelFetch(host_color, pixel, 0), vec4(65504.0));  // of a half
   scene_color[index] = uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba));
   scene_depth[index] = texelFetch(host_depth, pixel, 0).r;
 }

@@ -13,9 +13,9 @@ using uint = std::uint32_t;
 
 RILL_CONSTANT kAntialiasTile = 8;    // pixels per side of a workgroup that looks for edges
 RILL_CONSTANT kAntialiasGroup = 64;  // pixels at edges of a workgroup
-// Words of the counts: workgroups in x, y and z, and pixels at edges. There are so many workgroups in y that those in x are below 65,536.
+// Words of the counts: workgroups in x, y and z, and pixels at edges. There are kEdgeRows in y, so that those in x are below 65,536.
 RILL_CONSTANT kEdgeRows = 8;
-RILL_CONSTANT kEdgesAColumn = kAntialiasGroup * kEdgeRows;
+RILL_CONSTANT kEdgesAColumn = kAntialiasGroup * kEdgeRows;  // pixels at edges for each workgroup in x
 RILL_CONSTANT kEdgePixels = 3;
 
 struct AntialiasPush {

@@ -85,7 +85,8 @@ struct SceneRecord {
   vec4 light_u;      // axis; w: coordinate of the light map's first texel center
   vec4 light_v;
   vec4 light_to;     // direction to the light; w: coordinate of the plane where light depth is 0
-  vec4 light_texel;  // x: size of a texel, y: range of depths; z: how far a table reaches beyond a tank, 0: no table; w: its thickness
+  vec4 light_texel;  // x: size of a texel, y: range of light depths
+  vec4 table;        // x: how far a table reaches beyond a tank, 0: no table; y: its thickness
   vec4 asleep;       // linear RGB of particles asleep, by speed; w: 1 if the fluid may sleep
   vec4 colors[2 * kColors];  // linear RGB: by speed, by compression
   vec4 fluids[kViewFluids];  // linear RGB of each fluid

@@ -22,7 +22,7 @@ vec2 lightTexel(vec3 p) {
 // What of the sun's light comes through the fluid.
 vec3 throughFluid(vec3 p) {
   const vec2 at = lightTexel(p);
-  if (any(lessThan(at, vec2(-2.0))) || any(greaterThan(at, vec2(scene.counts.yz) + 1.0))) return vec3(1.0);
+  if (any(lessThan(at, vec2(-2.0))) || any(greaterThanEqual(at, vec2(scene.counts.yz) + 1.0))) return vec3(1.0);
   const ivec2 border = ivec2(kShadowBorder), size = ivec2(scene.counts.yz) + 2 * border;
   const vec2 part = at - floor(at);
   const ivec2 base = clamp(ivec2(floor(at)) + border, ivec2(0), size - 2);

@@ -56,8 +56,8 @@ const vec3 kTable = vec3(0.40, 0.38, 0.35);  // albedo of a table of stone
 
 // Where a ray meets the table that a tank stands on, in lengths of the ray; 0: nowhere. `normal` is that of the side it meets.
 float tableHit(vec3 from, vec3 ray, out vec3 normal) {
-  const float beyond = scene.light_texel.z;
-  const vec3 low = scene.domain_min.xyz - vec3(beyond, scene.light_texel.w, beyond);
+  const float beyond = scene.table.x;
+  const vec3 low = scene.domain_min.xyz - vec3(beyond, scene.table.y, beyond);
   const vec3 high = vec3(scene.domain_max.x + beyond, scene.domain_min.y, scene.domain_max.z + beyond);
   const vec3 slope = mix(vec3(1e-12), ray, greaterThan(abs(ray), vec3(1e-12)));
   const vec3 a = (low - from) / slope, b = (high - from) / slope, entry = min(a, b), leave = max(a, b);
@@ -77,28 +77,28 @@ void main() {
   vec3 normal = vec3(0.0, 1.0, 0.0);
   float z = ray.y < 0.0 ? (scene.domain_min.y - from.y) / ray.y : 0.0;
 #ifdef ENVIRONMENT
-  const bool table = scene.light_texel.z > 0.0;
+  const bool table = scene.table.x > 0.0;
   if (table) z = tableHit(from, ray, normal);
 #endif
   if (!(z > view.near_depth)) return;
   const vec3 p = from + z * ray;
-  // How far the hit moves from a pixel to the next.
+  // How far the hit moves on its side from a pixel to the next.
   const float pixel = metersAPixel(z);
   const vec3 across = worldDirection(vec3(pixel, 0.0, 0.0)), upwards = worldDirection(vec3(0.0, pixel, 0.0));
-  const float down = min(ray.y, -1e-6);
-  const vec2 right = across.xz - ray.xz * (across.y / down), up = upwards.xz - ray.xz * (upwards.y / down);
-  const vec2 width = abs(right) + abs(up);
+  const float towards = min(dot(ray, normal), -1e-6);
+  const vec3 right = across - ray * (dot(across, normal) / towards), up = upwards - ray * (dot(upwards, normal) / towards);
+  const vec3 width = abs(right) + abs(up);
   const vec2 extent = scene.domain_max.xz - scene.domain_min.xz;
   const vec2 inner = p.xz - scene.domain_min.xz;
   const vec2 beyond = max(max(-inner, inner - extent), vec2(0.0));
   const float step = scene.domain_max.w;
-  const bool inside = all(equal(beyond, vec2(0.0))), tank = step <= 0.0;
+  const bool inside = normal.y > 0.0 && all(equal(beyond, vec2(0.0))), tank = step <= 0.0;
   vec3 albedo = kTankFloor;
-  if (inside && !tank) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width / step));
+  if (inside && !tank) albedo = mix(vec3(0.34, 0.37, 0.40), vec3(0.70, 0.70, 0.68), checker(inner / step, width.xz / step));
   const float bias = 2.0 * scene.light_texel.x;
   const float facing = max(dot(sun, normal), 0.0);
   vec3 direct = vec3(0.0);
-  if (facing > 0.0) direct = reaching(sunlight() * facing, p, bias, 0.5 * (width.x + width.y), false);
+  if (facing > 0.0) direct = reaching(sunlight() * facing, p, bias, 0.5 * (width.x + width.y + width.z), false);
   const vec3 ambient = kAmbientShare * skyLight(normal);
 #ifdef ENVIRONMENT
   // The picture has a ground of its own: shadows and caustics change it by as much as they do the light.
