@@ -44,7 +44,8 @@ class RandomFrames : public GraphTest {
     for (uint32_t i = 0; i < imports; ++i) refs.push_back(import("import", befores[pick(7)], afters[pick(4)])), written.push_back(true);
     for (uint32_t i = 0; i < transients; ++i)
       refs.push_back(graph.create("transient", {256 + pick(chain ? 8 : 3) * 256})), written.push_back(false);
-    constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::Indirect, Use::CopySource, Use::VertexInput};
+    constexpr Use reads[] = {Use::ComputeRead, Use::ComputeTexel, Use::ComputeUniform, Use::DrawTexel,
+                             Use::Indirect,    Use::CopySource,   Use::VertexInput};
     constexpr Use writings[] = {Use::ComputeWrite, Use::CopyTarget, Use::ComputeAtomic};
     const ImportState imageStates[] = {
         Use::Nothing,    Use::Unknown,    Use::ComputeWrite, Use::ComputeSampled,
@@ -69,7 +70,7 @@ class RandomFrames : public GraphTest {
           if (used[r]) continue;
           used[r] = true;
           if (written[r] && pick(2)) {
-            pass.read(refs[r], reads[pick(6)]);
+            pass.read(refs[r], reads[pick(7)]);
           } else {
             refs[r] = pass.write(refs[r], writings[pick(written[r] ? 3 : 2)], pick(4) == 0);
             written[r] = true;

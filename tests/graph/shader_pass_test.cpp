@@ -111,9 +111,10 @@ TEST_F(ShaderPass, KernelsOfOnePassShareAWrite) {
 }
 
 TEST_F(ShaderPass, DrawsReadInTheGraphicsStages) {
-  ReflectedPipeline<GraphicsPipeline> draw{kKeys, {"scene", BindingKind::Uniform}, {"shadow", BindingKind::SampledImage}};
+  ReflectedPipeline<GraphicsPipeline> draw{
+      kKeys, {"scene", BindingKind::Uniform}, {"shadow", BindingKind::SampledImage}, {"texels", BindingKind::TexelUint}};
   draw.pipeline.colors = {VK_FORMAT_R8G8B8A8_UNORM};
-  const BufferRef keys = import("keys"), scene = import("scene");
+  const BufferRef keys = import("keys"), scene = import("scene"), texels = import("texels");
   const ImageRef shadow = graph.import("shadow", {.handle = reinterpret_cast<VkImage>(uintptr_t{1}),
                                                   .desc = {VK_FORMAT_R32_SFLOAT, 4, 4},
                                                   .before = Use::DrawSampled,
@@ -121,13 +122,14 @@ TEST_F(ShaderPass, DrawsReadInTheGraphicsStages) {
   ImageRef color = graph.create("color", {VK_FORMAT_R8G8B8A8_UNORM, 4, 4});
   graph.pass("draw", [&](Pass& pass) {
     color = pass.write(color, Use::ColorTarget, Load::Discard);
-    bindNamed(pass, &draw.pipeline, {{"keys", keys}, {"scene", scene}, {"shadow", shadow}});
+    bindNamed(pass, &draw.pipeline, {{"keys", keys}, {"scene", scene}, {"shadow", shadow}, {"texels", texels}});
     pass.sideEffect();
     return [](Commands&) {};
   });
   compile();
   EXPECT_EQ(access(keys).use, Use::DrawRead);
   EXPECT_EQ(access(scene).use, Use::DrawUniform);
+  EXPECT_EQ(access(texels).use, Use::DrawTexel);
   EXPECT_EQ(access(shadow).use, Use::DrawSampled);
 }
 
