@@ -1,4 +1,4 @@
-// Images do not depend on the number of driver threads, which changes how invocations share subgroups.
+// Images depend neither on the number of driver threads, which changes how invocations share subgroups, nor on how shaders read arrays.
 #include <gtest/gtest.h>
 
 #include "support/child_process.hpp"
@@ -21,6 +21,26 @@ TEST(SamePixelsTest, DriverThreadsDoNotChangeImages) {
   ASSERT_EQ(names.size(), 10u);
   for (const std::string& name : names)
     EXPECT_TRUE(contentOf(folder / "one_thread" / name) == contentOf(folder / "two_threads" / name)) << name;
+}
+
+TEST(SamePixelsTest, ReadsOfArraysDoNotChangeImages) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> plain{"look={}"};
+  const std::vector<std::string> full{"look.sky=day", "look.stage=tank", "look.caustics=true", "look.whitewater=true"};
+  for (const std::string scene : {"double-dam", "waterwheel"})
+    for (const auto& [name, look] : {std::pair{"plain", plain}, {"full", full}}) {
+      const auto render = [&](const std::string& reads) {
+        std::vector<std::string> arguments{scene,     "--particles", "2000",  "--fps", "5",       "--frames", "3",     "--size",
+                                           "480x270", "--quiet",     "--out", reads,   "--reads", reads,      "--set", "rill=0.2"};
+        arguments.insert(arguments.end(), look.begin(), look.end());
+        const Outcome outcome = capture(arguments, folder.string());
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+      };
+      render("storage");
+      render("texels");
+      for (const char* file : {"frame_00000.png", "frame_00001.png", "frame_00002.png"})
+        EXPECT_TRUE(contentOf(folder / "storage" / file) == contentOf(folder / "texels" / file)) << scene << ", " << name << ", " << file;
+    }
 }
 
 }  // namespace same_pixels_test
