@@ -5,12 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
-#include "render/fluid_renderer_impl.hpp"
-#include "support/gpu_test.hpp"
-#include "support/half_pixels.hpp"
-#include "views/scenery.hpp"
+#include "render/scenery_rig.hpp"
 
 namespace rill::test {
 namespace {
@@ -78,48 +74,19 @@ TEST(GlassTank, EndsAtTheLevelOfAnOutflow) {
   EXPECT_NEAR(top[1], 2.4, 1e-6);
 }
 
-class GlassTankOnGpu : public GpuTest {
+class GlassTankOnGpu : public SceneryTest {
  protected:
   static constexpr uint32_t kWidth = 96, kHeight = 72;
 
-  /// Red of the pixels of a tank without floor in a uniform environment of 1, seen from `eye`.
+  /// Of a tank without floor, seen from `eye`.
   std::vector<double> draw(const Double3& eye, const Double3& target) {
-    EnvironmentPicture white{32, 16, {}};
-    for (int k = 0; k < 32 * 16; ++k) white.texels.push_back(sharedExponent(1, 1, 1));
-    auto renderer = FluidRenderer::create(device());
-    EXPECT_TRUE(renderer) << renderer.error().message;
-    const auto set = renderer->setEnvironment(white);
-    EXPECT_TRUE(set) << set.error().message;
     Scene scene;
     scene.domain = tankDomain();
     scene.domain->open = 0b000100;
     scene.look.stage = "tank";
-    Environment* environment = implOf(*renderer).environment.get();
-    auto made = Scenery::create(device(), scene, {}, {}, environment);
-    EXPECT_TRUE(made) << made.error().message;
-    Graph graph;
-    FluidState fluid;
-    fluid.spacing = 0.1F;
-    CameraView camera;
-    for (int a = 0; a < 3; ++a) {
-      camera.eye[a] = eye[a];
-      camera.target[a] = target[a];
-    }
-    camera.fov_y_deg = kFov;
-    const FluidView view = fluidView(camera, kWidth, kHeight, 0.1);
-    const TargetFormats formats;
-    SceneTargets targets{graph.create("color", {formats.color, kWidth, kHeight}), graph.create("depth", {formats.depth, kWidth, kHeight})};
     FluidLook look;
     look.sun = 0;
-    const BufferRef texels = environment->addTo(graph);
-    targets = (*made)->addTo(graph, fluid, targets, view, look, 0, texels);
-    targets = (*made)->addOverFluid(graph, targets, view, look, 0, {}, texels);
-    const Ticket ticket = readbackHalves(graph, targets.color, uint64_t{kWidth} * kHeight);
-    run(graph);
-    std::vector<double> out;
-    const auto halves = read<uint16_t>(graph, ticket);
-    for (size_t k = 0; k < halves.size(); k += 4) out.push_back(halfValue(halves[k]));
-    return out;
+    return SceneryTest::draw(scene, {eye, target, kFov}, kWidth, kHeight, look);
   }
 
   static constexpr double kFov = 20;

@@ -4,15 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/vector_math.hpp"
-#include "render/fluid_renderer_impl.hpp"
-#include "support/gpu_test.hpp"
-#include "support/half_pixels.hpp"
-#include "views/scenery.hpp"
+#include "render/scenery_rig.hpp"
 
 namespace rill::test {
 namespace {
@@ -60,38 +56,15 @@ double redAlong(const Double3& from, const Double3& ray, const Float3& toSun) {
   return (inside ? kFloor : kStone) * (1 + std::max(facing, 0.0));
 }
 
-class TableOnGpu : public GpuTest {
+class TableOnGpu : public SceneryTest {
  protected:
-  /// Red of the pixels in a uniform environment of 1.
   std::vector<double> draw(const CameraView& camera, const std::string& sky, const std::string& map = {}) {
-    EnvironmentPicture white{32, 16, {}};
-    for (int k = 0; k < 32 * 16; ++k) white.texels.push_back(sharedExponent(1, 1, 1));
-    auto renderer = FluidRenderer::create(device());
-    EXPECT_TRUE(renderer) << renderer.error().message;
-    const auto set = renderer->setEnvironment(white);
-    EXPECT_TRUE(set) << set.error().message;
     Scene scene;
     scene.domain = openTank();
     scene.look.stage = "tank";
     scene.look.sky = sky;
     scene.look.environment = map;
-    Environment* environment = implOf(*renderer).environment.get();
-    auto made = Scenery::create(device(), scene, {}, {}, environment);
-    EXPECT_TRUE(made) << made.error().message;
-    Graph graph;
-    FluidState fluid;
-    fluid.spacing = 0.1F;
-    const FluidView view = fluidView(camera, kWidth, kHeight, 0.1);
-    const TargetFormats formats;
-    SceneTargets targets{graph.create("color", {formats.color, kWidth, kHeight}), graph.create("depth", {formats.depth, kWidth, kHeight})};
-    toSun_ = (*made)->toSun();
-    targets = (*made)->addTo(graph, fluid, targets, view, {}, 0, environment->addTo(graph));
-    const Ticket ticket = readbackHalves(graph, targets.color, uint64_t{kWidth} * kHeight);
-    run(graph);
-    std::vector<double> out;
-    const auto halves = read<uint16_t>(graph, ticket);
-    for (size_t k = 0; k < halves.size(); k += 4) out.push_back(halfValue(halves[k]));
-    return out;
+    return SceneryTest::draw(scene, camera, kWidth, kHeight);
   }
 
   static CameraView from(const Double3& eye) {
@@ -101,8 +74,6 @@ class TableOnGpu : public GpuTest {
     camera.fov_y_deg = kFov;
     return camera;
   }
-
-  Float3 toSun_;
 };
 
 TEST_F(TableOnGpu, IsWhereRaysMeetIt) {
