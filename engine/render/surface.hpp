@@ -60,13 +60,14 @@ class SurfaceStage {
   /// and with a `sceneDepth` as many more, of the bits of the depth of its nearest particle, inverted; 0 without one.
   /// With a `sceneDepth` the last grid has sums of thicknesses times depths (fluid_depths.glsl).
   /// `sceneDepth`: of the target, per pixel, hides fluid behind it; may be an empty ref.
-  /// `surface`: the result of addTo() for the same state, which counts kBoundHits; may be null.
+  /// `surface`: the result of addTo() for the same state, which counts kBoundHits; may be null. The state must have particles.
   BufferRef addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const surface::SurfacePush& push,
                          BufferRef sceneDepth, SurfaceBuffers* surface, Of of = Of::All) const;
   /// Where the fluid ends on each sample's ray (fluid_back.glsl), from what addThickness() has for this scene and this push.
   BufferRef addBack(Graph& graph, const SurfaceBuffers& surface, const surface::SurfacePush& push, BufferRef thickness,
                     BufferRef sceneDepth, Of of) const;
-  /// What addThickness() has of each fluid for a light's push of step 1, in m and blurred, for shaders/views/scenery.glsl.
+  /// What addThickness() has of each fluid for a light's push of step 1, in m and blurred, for shaders/views/scenery.glsl. Without
+  /// particles zeros, and `thickness` is not used.
   BufferRef addShadow(Graph& graph, const surface::SurfacePush& light, BufferRef thickness) const;
   /// The camera with the fields that addThickness() needs.
   static surface::SurfacePush thicknessPush(surface::SurfacePush camera, const FluidState& fluid, uint32_t step);

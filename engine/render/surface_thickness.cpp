@@ -1,4 +1,5 @@
 // The thickness of the fluid along rays, as passes.
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -68,13 +69,13 @@ Expected<void> SurfaceStage::setFluids(Device& device, std::span<const FluidBody
 
 BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, const FluidState& fluid, const SurfacePush& push,
                                      BufferRef sceneDepth, SurfaceBuffers* surface, Of of) const {
+  assert(fluid.capacity > 0);
   const bool each = of == Of::EachFluid && fluids_ > 1, hidden = sceneDepth != BufferRef{};
   const uint32_t grids = (!each ? 1 : hidden ? 2 * fluids_ : fluids_) + (hidden ? 1 : 0);
   BufferRef own;
   if (!surface) own = graph.create(names.counters, {kSurfaceCounterWords * 4});
   BufferRef thickness = graph.create(names.pass, {gridCells(push.width, push.height, push.step) * 4 * grids});
   addFill(graph, names.clear, {{&thickness, 0}, {surface ? nullptr : &own, 0}});
-  if (fluid.capacity == 0) return thickness;
   const CountedParticles particles = surface ? surface->particles : countParticles(graph, fluid, particleGroups_, kSurfaceGroup);
   BufferRef& counters = surface ? surface->counters : own;
   const bool mixed = each && mixedThickness_ && fluid.concentration != BufferRef{};
@@ -95,6 +96,11 @@ BufferRef SurfaceStage::addThickness(Graph& graph, const ThicknessNames& names, 
 BufferRef SurfaceStage::addShadow(Graph& graph, const SurfacePush& light, BufferRef thickness) const {
   const uint32_t width = light.width + 2 * kShadowBorder, height = light.height + 2 * kShadowBorder;
   BufferRef shadow = graph.create("fluid shadow blurred", {uint64_t{width} * height * fluids_ * 4});
+  if (light.count == 0) {
+    addFill(graph, kFluidShadow.clear, {{&shadow, 0}});
+    graph.skipped("fluid shadow blur", "there are no particles");
+    return shadow;
+  }
   const Groups groups{static_cast<uint32_t>(divideUp(width, kSurfaceTile)), static_cast<uint32_t>(divideUp(height, kSurfaceTile)), fluids_};
   addDispatch(graph, "fluid shadow blur", shadow_, groups, FluidShadowPush{light.width, light.height, light.unit},
               {{"thickness", std::as_const(thickness)}, {"fluid_shadow", shadow}});

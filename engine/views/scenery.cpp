@@ -46,12 +46,13 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   camera.spacing = fluid.spacing;
   const BufferRef scene = buffers_.importScene(graph);
   const SurfacePush light = SurfaceStage::thicknessPush(lightPush(fluid, fluid.origin), fluid, 1);
-  BufferRef shadow;
-  if (solids || hasGround())
-    shadow = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr,
-                                 SurfaceStage::Of::EachFluid);  // a particle spans five texels at most
+  const bool lands = solids || hasGround();
+  BufferRef thickness;
+  if (lands && fluid.capacity > 0)
+    thickness = stage_.addThickness(graph, kFluidShadow, fluid, light, {}, nullptr,
+                                    SurfaceStage::Of::EachFluid);  // a particle spans five texels at most
   else
-    graph.skipped(kFluidShadow.pass, "there is nothing that it falls on");
+    graph.skipped(kFluidShadow.pass, lands ? "there are no particles" : "there is nothing that it falls on");
   const BufferRef record = addLook(graph, lookRecord(look, light, environment_, fluids_));
   BufferRef poses;
   ImageRef lightDepth;
@@ -65,10 +66,11 @@ SceneTargets Scenery::addTo(Graph& graph, const FluidState& fluid, SceneTargets 
   } else {
     graph.skipped("scenery solids", "the scene has no solids");
   }
-  const BufferRef caustics = addCaustics(graph, fluid, look, shadow, double{light.unit}, lightDepth, record);
+  const BufferRef caustics = addCaustics(graph, fluid, look, thickness, double{light.unit}, lightDepth, record);
   const bool plain = caustics == BufferRef{};
   const Drawing& drawing = plain ? plain_ : refracted_;
-  if (plain && shadow != BufferRef{}) shadow = stage_.addShadow(graph, light, shadow);
+  BufferRef shadow;
+  if (plain && lands) shadow = stage_.addShadow(graph, light, thickness);
   const Named lit[] = {{"scene", scene},      {"look", record},        {"fluid_shadow", shadow},     {"light_depth", lightDepth},
                        {"placed", poses},     {"environment", texels}, {"mesh_parts", meshes.parts}, {"mesh_triangles", meshes.triangles},
                        {"caustics", caustics}};

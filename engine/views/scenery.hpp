@@ -49,8 +49,8 @@ class Scenery {
   // scenery_light.cpp
   surface::SurfacePush lightPush(const FluidState& fluid, const Double3& origin) const;
   ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
-  BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit, ImageRef lightDepth,
-                        BufferRef record) const;
+  BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef thickness, double unit,
+                        ImageRef lightDepth, BufferRef record) const;
 
   // scenery.cpp
   void addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,

@@ -95,7 +95,7 @@ ImageRef Scenery::addSolidShadows(Graph& graph, BufferRef poses, const SceneMesh
 }
 
 /// The map of caustics; empty where there are none.
-BufferRef Scenery::addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef shadow, double unit,
+BufferRef Scenery::addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef thickness, double unit,
                                ImageRef lightDepth, BufferRef record) const {
   if (!caustics_) return {};
   const SunView view = sunView();
@@ -107,7 +107,7 @@ BufferRef Scenery::addCaustics(Graph& graph, const FluidState& fluid, const Flui
     graph.skipped("caustics rays", reason);
     return {};
   }
-  return caustics_->addTo(graph, fluid, look, view, shadow, unit, lightDepth, record).map;
+  return caustics_->addTo(graph, fluid, look, view, thickness, unit, lightDepth, record).map;
 }
 
 }  // namespace rill

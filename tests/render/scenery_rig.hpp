@@ -1,7 +1,9 @@
 #pragma once
 // Draws what stands around the fluid of a scene, without fluid.
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "render/fluid_renderer_impl.hpp"
@@ -37,12 +39,16 @@ class SceneryTest : public GpuTest {
     const Ticket ticket = readbackHalves(graph, targets.color, uint64_t{width} * height);
     run(graph);
     std::vector<double> out;
+    reasons_.clear();
+    for (const PassReport& pass : graph.report()) reasons_.emplace(pass.name, pass.reason);
     const auto halves = read<uint16_t>(graph, ticket);
     for (size_t k = 0; k < halves.size(); k += 4) out.push_back(halfValue(halves[k]));
     return out;
   }
 
-  Float3 toSun_;  ///< of what was drawn last
+  // Of what was drawn last:
+  Float3 toSun_;
+  std::map<std::string, std::string> reasons_;  ///< why passes were culled or skipped, by name; empty: executed
 };
 
 }  // namespace rill::test
