@@ -56,7 +56,7 @@ Expected<std::unique_ptr<WindowPass>> WindowPass::create(Device& device, const S
   auto made = std::make_unique<WindowPass>();
   const VkFormat colors[] = {format.canvas};
   implOf(device).shaders.add(viewShaders());
-  const auto variant = [&](const char* shader) { return shaderVariant(device, shader, "_texel", usesTexelReads(device)); };
+  const auto variant = [&](const char* shader) { return texelVariant(device, shader, usesTexelReads(device)); };
   const std::string uiFragment = variant("view/ui_fragment"), pictureFragment = variant("view/picture_fragment");
   auto ui = graphicsPipeline(device, {.vertex = "view/ui_vertex", .fragment = uiFragment, .colors = colors, .blend = Blend::Premultiplied});
   if (!ui) return ui.error();

@@ -101,7 +101,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   const bool tests = row.extent == Extent::ContactPoints;
   if (tests) prepared.arguments = FluidArray::PointCommands;
   shader = shaderVariant(device, shader, "_merged", setup.mergesPasses);
-  shader = shaderVariant(device, shader, "_texel", texel_);
+  shader = texelVariant(device, shader, texel_);
   const ClusterChoice choice = clusterOf(device);
 
   const auto add = [&](uint32_t over, std::initializer_list<NamedConstant> own, SubgroupNeed subgroups = {}) -> Expected<void> {

@@ -16,8 +16,7 @@ class ModulePipelines {
   const ComputePipeline* make(std::string_view shader, bool texels = false, std::initializer_list<NamedConstant> constants = {},
                               SubgroupNeed subgroups = {}) {
     if (error_) return nullptr;
-    auto made = shaderPipeline(device_, shaderVariant(device_, shader, "_texel", texels), std::span(constants.begin(), constants.size()),
-                               subgroups);
+    auto made = shaderPipeline(device_, texelVariant(device_, shader, texels), std::span(constants.begin(), constants.size()), subgroups);
     if (made) return *made;
     error_ = made.error();
     return nullptr;

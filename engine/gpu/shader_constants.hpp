@@ -23,7 +23,12 @@ inline Expected<const ComputePipeline*> shaderPipeline(Device& device, std::stri
   return shaderPipeline(device, shader, std::span(constants.begin(), constants.size()));
 }
 
-/// `shader`, or if `wanted` its variant, if it has one: `_texel` reads arrays through texel buffers, `_merged` does more in a pass.
+/// `shader`, or if `wanted` its variant, if it has one: `_merged` does more in a pass.
 std::string shaderVariant(const Device& device, std::string_view shader, std::string_view suffix, bool wanted);
+
+/// `shader`, or if `texels` its variant that reads arrays through texel buffers, if it has one.
+inline std::string texelVariant(const Device& device, std::string_view shader, bool texels) {
+  return shaderVariant(device, shader, "_texel", texels);
+}
 
 }  // namespace rill

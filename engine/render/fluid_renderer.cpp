@@ -51,8 +51,7 @@ Expected<void> FluidRendererImpl::makeShade() {
   const uint32_t fluids = static_cast<uint32_t>(bodies.size());
   for (size_t k = 0; k < kShades; ++k) {
     const bool several = fluids > 1 && Shade(k) != Shade::Opaque;
-    const std::string fragment =
-        shaderVariant(*device->device, kFragments[k][environment != nullptr], "_texel", usesTexelReads(*device->device));
+    const std::string fragment = texelVariant(*device->device, kFragments[k][environment != nullptr], usesTexelReads(*device->device));
     auto drawn = graphicsPipeline(*device->device, {.vertex = "render/fluid_shade_vertex",
                                                     .fragment = fragment,
                                                     .constants = {&fluids, several ? 1u : 0u},

@@ -105,8 +105,8 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
     const std::string suffix = sky + (refracted ? "_caustics" : "") + "_fragment";
     auto& [groundShader, solidShader, meshShader] = shaderNames[refracted];
     Drawing& drawing = refracted ? out->refracted_ : out->plain_;
-    groundShader = shaderVariant(device, "views/scenery_" + around + (out->hasGround() ? suffix : sky + "_fragment"), "_texel",
-                                 usesTexelReads(device));
+    groundShader =
+        texelVariant(device, "views/scenery_" + around + (out->hasGround() ? suffix : sky + "_fragment"), usesTexelReads(device));
     solidShader = "views/scenery_solid" + suffix;
     meshShader = "views/scenery_mesh" + suffix;
     const auto inShadow = [&](const GraphicsPipeline*& pipeline, std::string_view vertex, std::string_view fragment, VkCompareOp compare) {

@@ -18,8 +18,8 @@ Expected<WhitewaterView> WhitewaterView::create(Device& device, const TargetForm
   ModulePipelines pipelines(device);
   out.splat_ = pipelines.make("views/whitewater_splat", texels);
   if (auto made = pipelines.result(); !made) return made.error();
-  const std::string fragment = shaderVariant(
-      device, environment ? "views/whitewater_blend_environment_fragment" : "views/whitewater_blend_fragment", "_texel", texels);
+  const std::string fragment =
+      texelVariant(device, environment ? "views/whitewater_blend_environment_fragment" : "views/whitewater_blend_fragment", texels);
   auto blend = graphicsPipeline(device, {.vertex = "views/scenery_ground_vertex",
                                          .fragment = fragment,
                                          .colors = {&formats.color, 1},
