@@ -8,18 +8,16 @@
 #include "gpu/texel_reads.hpp"
 #include "graph/shader_pass.hpp"
 #include "sort/dispatches.hpp"
-#include "views/antialias_record.h"
+#include "views/finish_records.h"
 
 namespace rill {
 
-using namespace antialias;
+using namespace finish;
 
 namespace {
 
-constexpr uint32_t kToneTile = 8;  ///< pixels per side of a workgroup
-
-Groups tilesOf(uint32_t width, uint32_t height, uint32_t side) {
-  return {static_cast<uint32_t>(divideUp(width, side)), static_cast<uint32_t>(divideUp(height, side)), 1};
+Groups tilesOf(uint32_t width, uint32_t height) {
+  return {static_cast<uint32_t>(divideUp(width, kPictureTile)), static_cast<uint32_t>(divideUp(height, kPictureTile)), 1};
 }
 
 }  // namespace
@@ -37,7 +35,7 @@ Expected<Finish> Finish::create(Device& device, bool storageReads) {
 
 BufferRef Finish::addTo(Graph& graph, ImageRef color, uint32_t width, uint32_t height, double exposure_stops) const {
   BufferRef aliased = graph.create("picture aliased", {uint64_t{width} * height * 4});
-  addDispatch(graph, "picture tone", tone_, tilesOf(width, height, kToneTile), static_cast<float>(std::exp2(exposure_stops)),
+  addDispatch(graph, "picture tone", tone_, tilesOf(width, height), static_cast<float>(std::exp2(exposure_stops)),
               {{"hdr", color}, {"aliased", aliased}});
   return smoothed(graph, aliased, width, height);
 }
@@ -58,7 +56,7 @@ BufferRef Finish::smoothed(Graph& graph, BufferRef aliased, uint32_t width, uint
   });
   const AntialiasPush push{width, height};
   const Named named[] = {{"aliased", std::as_const(aliased)}, {"counts", counts}, {"edges", edges}, {"picture", picture}};
-  addDispatch(graph, "picture edge search", search_, tilesOf(width, height, kAntialiasTile), push, named);
+  addDispatch(graph, "picture edge search", search_, tilesOf(width, height), push, named);
   addDispatch(graph, "picture edges", antialias_, {counts, 0}, push, named);
   return picture;
 }

@@ -1,7 +1,7 @@
 // Pixels of a finished picture, and where its edges are (Lottes 2009, FXAA). Defines binding 0.
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/arrays.glsl"
-#include "views/antialias_record.h"
+#include "views/finish_records.h"
 
 layout(push_constant) uniform Push { AntialiasPush push; };
 READ_UINT(0, aliased)  // RGBA8, sRGB

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "views/antialias.glsl"
 
-layout(local_size_x = kAntialiasTile, local_size_y = kAntialiasTile) in;
+layout(local_size_x = kPictureTile, local_size_y = kPictureTile) in;
 layout(std430, set = 0, binding = 1) buffer Counts { uint counts[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Edges { uint edges[]; };
 

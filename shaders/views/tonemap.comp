@@ -2,9 +2,10 @@
 // Exposure, then the AgX tone curve, whose values an sRGB display shows as they are.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "views/finish_records.h"
 #include "views/tone_curve.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kPictureTile, local_size_y = kPictureTile) in;
 layout(set = 0, binding = 0) uniform texture2D hdr;
 layout(std430, set = 0, binding = 1) writeonly buffer Aliased { uint aliased[]; };
 layout(push_constant) uniform Push { float gain; };

@@ -12,6 +12,7 @@
 #include "shared/fluid_records.h"
 #include "shared/solid_records.h"
 #include "support/gpu_test.hpp"
+#include "views/finish_records.h"
 #include "views/motion.hpp"
 #include "views/scene_buffers.hpp"
 
@@ -81,6 +82,7 @@ TEST_F(FilmPasses, MeanOfPicturesIsThatOfTheirLight) {
   EXPECT_EQ(numberOf(halves[3][2]), 65504);
 
   // The tone curve is that of a picture without samples.
+  constexpr uint32_t kTile = finish::kPictureTile;
   std::vector<Texel> twice = wanted;
   for (Texel& texel : twice)
     for (float& value : texel) value *= 2;
@@ -89,7 +91,7 @@ TEST_F(FilmPasses, MeanOfPicturesIsThatOfTheirLight) {
   ModulePipelines pipelines(device());
   const ComputePipeline* tone = pipelines.make("views/tonemap");
   BufferRef aliased = plain.create("aliased", {twice.size() * 4});
-  addDispatch(plain, "tone", tone, Groups{(kWidth + 7) / 8, (kHeight + 7) / 8, 1}, 1.0f,
+  addDispatch(plain, "tone", tone, Groups{(kWidth + kTile - 1) / kTile, (kHeight + kTile - 1) / kTile, 1}, 1.0f,
               {{"hdr", image(plain, source, kWidth, kHeight)}, {"aliased", aliased}});
   const Ticket ticket = plain.readback(aliased);
   run(plain);
