@@ -87,11 +87,11 @@ SurfacePush FluidRendererImpl::camera(const FluidState& fluid, const FluidView& 
 }
 
 /// A copy costs less than a pass that reads images, but needs an image that can be copied from, which those of a host need not be.
-FluidRendererImpl::SceneCopy FluidRendererImpl::copyScene(Graph& graph, const SceneTargets& targets, bool whole) const {
+FluidRendererImpl::SceneCopy FluidRendererImpl::copyScene(Graph& graph, const SceneTargets& targets, bool ownTargets) const {
   const SurfacePush& push = last.push;
   const uint64_t pixels = uint64_t{push.width} * push.height;
   SceneCopy copy{graph.create("fluid scene color", {pixels * 8}), graph.create("fluid scene depth", {pixels * 4})};
-  if (!whole) {
+  if (!ownTargets) {
     addDispatch(graph, "fluid scene", scene, {last.arguments, kPixelArguments * 4}, push,
                 {{"host_color", targets.color}, {"host_depth", targets.depth}, {"scene_color", copy.color}, {"scene_depth", copy.depth}});
     return copy;
@@ -110,16 +110,16 @@ FluidRendererImpl::SceneCopy FluidRendererImpl::copyScene(Graph& graph, const Sc
 }
 
 SceneTargets FluidRendererImpl::addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view,
-                                      const FluidLook& given, bool whole, BufferRef texels) {
+                                      const FluidLook& given, bool ownTargets, BufferRef texels) {
   const FluidLook look = bodies.size() == 1 ? withBody(given, bodies.front()) : given;
   if (fluid.capacity == 0) {
     graph.skipped("fluid shade", "there are no particles");
     return targets;
   }
   if (!accepted(graph, checkTargets(graph, targets, view))) return targets;
-  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, whole, view.focus_m);
+  last = surface.addTo(graph, fluid, camera(fluid, view), look.surface, ownTargets, view.focus_m);
   const SurfacePush push = last.push;
-  lastScene = copyScene(graph, targets, whole);
+  lastScene = copyScene(graph, targets, ownTargets);
   const BufferRef sceneColor = lastScene.color, sceneDepth = lastScene.depth;
   const SurfacePush thick = SurfaceStage::thicknessPush(push, fluid, kThicknessStep);
   BufferRef thickness, normals, back;

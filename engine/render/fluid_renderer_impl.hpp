@@ -24,10 +24,10 @@ class FluidRendererImpl {
   surface::SurfacePush camera(const FluidState& fluid, const FluidView& view) const;
   Expected<void> setEnvironment(const EnvironmentPicture& picture);
   Expected<void> setFluids(std::span<const FluidBody> fluids);
-  /// `whole`: targets of the graph's own, in the default formats; also writes pixels of the surface without fluid. `texels`: of the
-  /// environment, if any.
-  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look, bool whole,
-                     BufferRef texels = {});
+  /// `ownTargets`: of the graph's own, in the default formats; what is drawn over the fluid then needs the surface's pixels without fluid,
+  /// too. `texels`: of the environment, if any.
+  SceneTargets addTo(Graph& graph, const FluidState& fluid, SceneTargets targets, const FluidView& view, const FluidLook& look,
+                     bool ownTargets, BufferRef texels = {});
   BufferRef addData(Graph& graph, const FluidState& fluid, const FluidView& view, SurfaceData data, float full, SurfaceMethod method);
 
   DeviceImpl* device = nullptr;
@@ -51,7 +51,7 @@ class FluidRendererImpl {
 
  private:
   Expected<void> makeShade();
-  SceneCopy copyScene(Graph& graph, const SceneTargets& targets, bool whole) const;
+  SceneCopy copyScene(Graph& graph, const SceneTargets& targets, bool ownTargets) const;
 };
 
 }  // namespace rill
