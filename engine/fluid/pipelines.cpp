@@ -21,6 +21,19 @@ uint32_t wholePower(float power) {
   return static_cast<float>(whole) == power ? whole : 0;
 }
 
+/// What the dispatch commands of a pass are in: a buffer of their own for each shader that writes such, or that of all others.
+FluidArray argumentsOf(const FluidPassRow& row, const FluidSetup& setup) {
+  switch (row.extent) {
+    case Extent::Contacts:
+    case Extent::ContactBodies:
+      return FluidArray::ContactCommands;
+    case Extent::ContactPoints:
+      return FluidArray::PointCommands;
+    default:
+      return runsControl(row.id, setup) ? FluidArray::DensityCommands : FluidArray::Commands;
+  }
+}
+
 }  // namespace
 
 Expected<void> FluidImpl::checkClusters(const Device& device) {
@@ -94,12 +107,7 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
   const bool counted = sort_->method() == SortMethod::Counting;
   std::string shader(row.shader);
   if (row.extent == Extent::Keys && counted) shader += "_counted";
-  const bool controls = runsControl(row.id, setup);
-  if (controls) prepared.arguments = FluidArray::DensityCommands;
-  const bool touches = row.extent == Extent::Contacts || row.extent == Extent::ContactBodies;
-  if (touches) prepared.arguments = FluidArray::ContactCommands;
-  const bool tests = row.extent == Extent::ContactPoints;
-  if (tests) prepared.arguments = FluidArray::PointCommands;
+  prepared.arguments = argumentsOf(row, setup);
   shader = shaderVariant(device, shader, "_merged", setup.mergesPasses);
   shader = texelVariant(device, shader, texel_);
   const ClusterChoice choice = clusterOf(device);
@@ -124,12 +132,8 @@ Expected<void> FluidImpl::preparePass(Device& device, const FluidPassRow& row) {
       const GroupCount groups = over == kOverShape ? foldGroups(fixedGroups(row.extent)) : GroupCount{kFluidGroup, 0, 1};
       const auto share = [&](Start when) {
         const auto k = static_cast<uint32_t>(when);
-        if (controls)
-          commands[k] = over == kOverGrid ? 1 : 0;
-        else if (touches || tests)
-          commands[k] = row.extent == Extent::ContactBodies ? 1 : 0;
-        else
-          commands[k] = commands_.shared(k, over, groups);
+        const bool second = over == kOverGrid || row.extent == Extent::ContactBodies;  // of two commands in a buffer of their own
+        commands[k] = prepared.arguments == FluidArray::Commands ? commands_.shared(k, over, groups) : uint32_t{second};
       };
       share(start);
       if (start == Start::Correct) share(Start::CorrectOdd);
