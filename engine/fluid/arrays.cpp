@@ -61,7 +61,7 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {Touched, "touched", "solids that bodies touch", Section, sizeof(TouchedRecord), [](const ArrayShape& s) { return s.bodies; }},
       {ContactCandidates, "contactCandidates", "contact points that may touch", Section, 8,
        [](const ArrayShape& s) { return s.bodies > 0 ? s.contactPoints + 1 : 0; }},
-      {ContactBodies, "contactBodies", "bodies that may touch", Section, kWord,
+      {ContactBodies, "contactBodies", "bodies that may touch, bodies in contact", Section, kWord,
        [](const ArrayShape& s) { return s.bodies > 0 ? kContactLists + (kPointWorkgroups + 1) * s.bodies : 0; }},
       {ContactCommands, "contactCommands", "contact dispatch commands", Fluid, 12, [](const ArrayShape&) { return uint64_t{2}; }},
       {PointCommands, "pointCommands", "contact point dispatch command", Fluid, 12, one},
