@@ -1,7 +1,6 @@
 #version 460
-// The corrections of the particles near solids, and of their warm start: what the neighbors give them as any other, what the tangential
-// scales of both add (docs/notes/walls-and-solids.md), and what solids and mouths give. A pass of its own, since other particles would
-// pay for the scales as well. Gathers from `work`.
+// Corrections of the particles near solids, with the tangential scales of neighbors (docs/notes/walls-and-solids.md), and of their warm
+// start: a pass of its own, since other particles would pay for the scales as well. Gathers from `work`.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
