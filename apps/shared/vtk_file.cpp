@@ -95,12 +95,13 @@ std::vector<std::byte> encodeVtu(const offline::Particles& particles, double tim
 std::vector<std::byte> encodeWhitewaterVtu(const offline::DiffuseParticles& particles, double time_s) {
   VtkArrays arrays;
   assert(particles.velocities.size() == particles.positions.size() && particles.ages.size() == particles.positions.size() &&
-         particles.classes.size() == particles.positions.size());
+         particles.classes.size() == particles.positions.size() && particles.randoms.size() == particles.positions.size());
   std::vector<uint8_t> classes;
   for (const WhitewaterClass one : particles.classes) classes.push_back(static_cast<uint8_t>(one));
   const std::string attributes = "<PointData Scalars=\"class\" Vectors=\"velocity\">\n" +
                                  arrays.add("Float32", "velocity", 3, particles.velocities) +
-                                 arrays.add("Float32", "age", 1, particles.ages) + arrays.add("UInt8", "class", 1, classes);
+                                 arrays.add("Float32", "age", 1, particles.ages) + arrays.add("UInt32", "random", 1, particles.randoms) +
+                                 arrays.add("UInt8", "class", 1, classes);
   return pointsFile(arrays, particles.positions, attributes + "</PointData>\n", time_s);
 }
 

@@ -99,6 +99,20 @@ void expectArrays(const std::string& file, size_t count) {
   EXPECT_EQ(file.substr(data + expected), "\n</AppendedData>\n</VTKFile>\n");
 }
 
+/// The values of an appended array.
+template <class T>
+std::vector<T> arrayOf(const std::string& file, const std::string& name) {
+  const size_t at = file.find("Name=\"" + name + "\""), begin = file.find("encoding=\"raw\">\n_");
+  if (at == std::string::npos || begin == std::string::npos) return {};
+  const char* data = file.data() + begin + std::strlen("encoding=\"raw\">\n_") +
+                     std::stoull(file.substr(file.find("offset=\"", at) + std::strlen("offset=\"")));
+  uint64_t bytes = 0;
+  std::memcpy(&bytes, data, sizeof bytes);
+  std::vector<T> values(bytes / sizeof(T));
+  std::memcpy(values.data(), data + sizeof bytes, bytes);
+  return values;
+}
+
 TEST(MeshFile, VtkFilesHaveTheirArrays) {
   const std::string vtp = encoded(tetrahedron(), MeshFormat::Vtp);
   EXPECT_NE(vtp.find("<Piece NumberOfPoints=\"4\""), std::string::npos);
@@ -124,10 +138,12 @@ TEST(MeshFile, VtkFilesHaveTheirArrays) {
   const offline::DiffuseParticles white{.positions = {{0, 1, 2}, {3, 4, 5}},
                                         .velocities = {{0, 0, 1}, {0, 0, 2}},
                                         .ages = {0.5F, 1},
-                                        .classes = {WhitewaterClass::Spray, WhitewaterClass::Bubble}};
+                                        .classes = {WhitewaterClass::Spray, WhitewaterClass::Bubble},
+                                        .randoms = {7, (1 << 24) - 1}};
   const std::string foam = textOf(encodeWhitewaterVtu(white, 0.25));
   EXPECT_NE(foam.find("<DataArray type=\"UInt8\" Name=\"class\""), std::string::npos);
-  expectArrays(foam, 8);
+  EXPECT_EQ(arrayOf<uint32_t>(foam, "random"), white.randoms);
+  expectArrays(foam, 9);
   const std::pair<double, std::string> files[] = {{0, "frame_00000.vtu"}, {0.5, "frame_00001.vtu"}};
   EXPECT_NE(encodePvd(files).find("<DataSet timestep=\"0.5\" part=\"0\" file=\"frame_00001.vtu\"/>"), std::string::npos);
 }
