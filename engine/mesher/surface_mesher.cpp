@@ -46,39 +46,49 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
   if (auto valid = checkRanges(desc); !valid) return valid.error();
   auto impl = std::make_unique<SurfaceMesherImpl>();
   impl->limits = withDefaults(desc);
-  const SurfaceMesherDesc& limits = impl->limits;
-  impl->binCells_ = static_cast<uint32_t>(std::ceil(1 / desc.cell - 1e-6));
-  const uint64_t blockCells = 4 * uint64_t{impl->binCells_}, blocks = limits.maxBlocks, particles = limits.capacity;
-  impl->rows_ = blocks * blockCells * blockCells;
-  impl->corners_ = impl->rows_ * blockCells;
+  for (auto part : {&SurfaceMesherImpl::setSizes, &SurfaceMesherImpl::makeSorts, &SurfaceMesherImpl::makePipelines})
+    if (auto ok = (*impl.*part)(device); !ok) return ok.error();
+  impl->table_ = packedCubeTriangles();
+  return impl;
+}
+
+Expected<void> SurfaceMesherImpl::setSizes(Device& device) {
+  binCells_ = static_cast<uint32_t>(std::ceil(1 / limits.cell - 1e-6));
+  const uint64_t blockCells = 4 * uint64_t{binCells_}, blocks = limits.maxBlocks, particles = limits.capacity;
+  rows_ = blocks * blockCells * blockCells;
+  corners_ = rows_ * blockCells;
   const uint64_t reached = blocks * kMeshNeighbors;
   // Without room for lists sums are walks, so lists are not why a mesher is refused or arrays are not read as texels.
   const uint64_t listed = std::min({particles * kMeshListedPerParticle, device.info().maxBufferBytes / 4, uint64_t{UINT32_MAX}});
   const uint64_t texelListed = std::min(listed, kReadTexels);
-  const bool texels = usesTexelReads(device, std::max({impl->corners_, 3 * particles, texelListed, reached, uint64_t{limits.maxVertices}}));
-  impl->listed_ = texels ? texelListed : listed;
-  impl->bytes = blocks * 4                                     // blocks
-                + reached * 4 * 4                              // keys of those reached
-                + (blocks * kMeshBlockBins + 2) * 4 * 7        // bins
-                + particles * (16 * 4 + 4 * 8)                 // particles
-                + impl->listed_ * 4                            // lists of bins
-                + impl->corners_ * 4 * 3                       // field, cases, first vertices
-                + (impl->rows_ + 4) * 4 * 2                    // rows
-                + uint64_t{limits.maxVertices} * (16 * 3 + 4)  // vertices, edges
-                + uint64_t{limits.maxTriangles} * 12;          // indices
+  texels_ = usesTexelReads(device, std::max({corners_, 3 * particles, texelListed, reached, uint64_t{limits.maxVertices}}));
+  listed_ = texels_ ? texelListed : listed;
+  bytes = blocks * 4                                     // blocks
+          + reached * 4 * 4                              // keys of those reached
+          + (blocks * kMeshBlockBins + 2) * 4 * 7        // bins
+          + particles * (16 * 4 + 4 * 8)                 // particles
+          + listed_ * 4                                  // lists of bins
+          + corners_ * 4 * 3                             // field, cases, first vertices
+          + (rows_ + 4) * 4 * 2                          // rows
+          + uint64_t{limits.maxVertices} * (16 * 3 + 4)  // vertices, edges
+          + uint64_t{limits.maxTriangles} * 12;          // indices
   const auto tooLarge = [&](const std::string& why) {
     return meshError(ErrorKind::TooLarge, grouped(blocks) + " blocks, " + grouped(limits.maxVertices) + " vertices and " +
-                                              grouped(limits.maxTriangles) + " triangles need " + grouped(impl->bytes) + " bytes; " + why);
+                                              grouped(limits.maxTriangles) + " triangles need " + grouped(bytes) + " bytes; " + why);
   };
-  const uint64_t largest = std::max({impl->corners_ * 4, particles * 48, uint64_t{limits.maxVertices} * 16,
-                                     uint64_t{limits.maxTriangles} * 12, reached * 4, blocks * kMeshBlockBins * 8});
-  if (impl->corners_ >= kMaxMeshCorners || reached > KeySortDesc::kMaxCount || impl->rows_ + 1 > Scan::kMaxCount ||
+  const uint64_t largest = std::max({corners_ * 4, particles * 48, uint64_t{limits.maxVertices} * 16, uint64_t{limits.maxTriangles} * 12,
+                                     reached * 4, blocks * kMeshBlockBins * 8});
+  if (corners_ >= kMaxMeshCorners || reached > KeySortDesc::kMaxCount || rows_ + 1 > Scan::kMaxCount ||
       blocks * kMeshBlockBins + 1 > maxStartRange(device))
-    return tooLarge("expected at most " + grouped(kMaxMeshCorners) + " corners of cells, found " + grouped(impl->corners_));
+    return tooLarge("expected at most " + grouped(kMaxMeshCorners) + " corners of cells, found " + grouped(corners_));
   if (largest > device.info().maxBufferBytes)
     return tooLarge("one buffer of them has " + grouped(largest) + ", expected at most " + grouped(device.info().maxBufferBytes));
-  if (impl->bytes > device.availableBytes()) return tooLarge(grouped(device.availableBytes()) + " are available");
+  if (bytes > device.availableBytes()) return tooLarge(grouped(device.availableBytes()) + " are available");
+  return {};
+}
 
+Expected<void> SurfaceMesherImpl::makeSorts(Device& device) {
+  const uint64_t blocks = limits.maxBlocks, particles = limits.capacity, reached = blocks * kMeshNeighbors;
   const auto sort = [&](std::optional<KeySort>& made, const KeySortDesc& keys) -> Expected<void> {
     auto created = KeySort::create(device, keys);
     if (!created) return created.error();
@@ -86,47 +96,45 @@ Expected<std::unique_ptr<SurfaceMesherImpl>> SurfaceMesherImpl::create(Device& d
     return {};
   };
   const auto reachedCount = static_cast<uint32_t>(reached);
-  if (auto ok = sort(impl->blockSort_, {.count = limits.capacity, .keyRange = KeySortDesc::kMaxKeyRange, .keys = true}); !ok)
-    return ok.error();
-  if (auto ok = sort(impl->reachedSort_, {.count = reachedCount, .keyRange = KeySortDesc::kMaxKeyRange, .keys = true}); !ok)
-    return ok.error();
-  if (auto ok = sort(impl->binSort_, {.count = limits.capacity, .keyRange = blocks * kMeshBlockBins + 1, .start = true}); !ok)
-    return ok.error();
+  if (auto ok = sort(blockSort_, {.count = limits.capacity, .keyRange = KeySortDesc::kMaxKeyRange, .keys = true}); !ok) return ok;
+  if (auto ok = sort(reachedSort_, {.count = reachedCount, .keyRange = KeySortDesc::kMaxKeyRange, .keys = true}); !ok) return ok;
+  if (auto ok = sort(binSort_, {.count = limits.capacity, .keyRange = blocks * kMeshBlockBins + 1, .start = true}); !ok) return ok;
   const auto scan = [&](Scan& made, uint64_t count) -> Expected<void> {
     auto created = Scan::create(device, static_cast<uint32_t>(count));
     if (!created) return created.error();
     made = *created;
     return {};
   };
-  if (auto ok = scan(impl->particleScan_, particles + 1); !ok) return ok.error();
-  if (auto ok = scan(impl->reachedScan_, reached + 1); !ok) return ok.error();
-  if (auto ok = scan(impl->rowScan_, impl->rows_ + 1); !ok) return ok.error();
+  if (auto ok = scan(particleScan_, particles + 1); !ok) return ok;
+  if (auto ok = scan(reachedScan_, reached + 1); !ok) return ok;
+  if (auto ok = scan(rowScan_, rows_ + 1); !ok) return ok;
+  return {};
+}
 
+Expected<void> SurfaceMesherImpl::makePipelines(Device& device) {
   ModulePipelines make(device);
-  const auto pipeline = [&](std::string_view shader) { return make.make(shader, texels, {{"BIN_CELLS", impl->binCells_}}); };
-  impl->pipelines_ = {.keys = pipeline("mesher/keys"),
-                      .flag = pipeline("mesher/flag"),
-                      .compact = pipeline("mesher/compact"),
-                      .reach = pipeline("mesher/reach"),
-                      .dilate = pipeline("mesher/dilate"),
-                      .arguments = pipeline("mesher/arguments"),
-                      .neighbors = pipeline("mesher/neighbors"),
-                      .binKeys = pipeline("mesher/bin_keys"),
-                      .gather = pipeline("mesher/gather"),
-                      .ellipsoids = pipeline("mesher/ellipsoids"),
-                      .states = pipeline("mesher/states"),
-                      .mixed = pipeline("mesher/mixed"),
-                      .nearArguments = pipeline("mesher/near_arguments"),
-                      .lists = pipeline("mesher/lists"),
-                      .field = pipeline("mesher/field"),
-                      .rows = pipeline("mesher/rows"),
-                      .finish = pipeline("mesher/finish"),
-                      .vertices = pipeline("mesher/vertices"),
-                      .triangles = pipeline("mesher/triangles"),
-                      .shade = pipeline("mesher/shade")};
-  if (auto made = make.result(); !made) return made.error();
-  impl->table_ = packedCubeTriangles();
-  return impl;
+  const auto pipeline = [&](std::string_view shader) { return make.make(shader, texels_, {{"BIN_CELLS", binCells_}}); };
+  pipelines_ = {.keys = pipeline("mesher/keys"),
+                .flag = pipeline("mesher/flag"),
+                .compact = pipeline("mesher/compact"),
+                .reach = pipeline("mesher/reach"),
+                .dilate = pipeline("mesher/dilate"),
+                .arguments = pipeline("mesher/arguments"),
+                .neighbors = pipeline("mesher/neighbors"),
+                .binKeys = pipeline("mesher/bin_keys"),
+                .gather = pipeline("mesher/gather"),
+                .ellipsoids = pipeline("mesher/ellipsoids"),
+                .states = pipeline("mesher/states"),
+                .mixed = pipeline("mesher/mixed"),
+                .nearArguments = pipeline("mesher/near_arguments"),
+                .lists = pipeline("mesher/lists"),
+                .field = pipeline("mesher/field"),
+                .rows = pipeline("mesher/rows"),
+                .finish = pipeline("mesher/finish"),
+                .vertices = pipeline("mesher/vertices"),
+                .triangles = pipeline("mesher/triangles"),
+                .shade = pipeline("mesher/shade")};
+  return make.result();
 }
 
 Expected<SurfaceMesher> SurfaceMesher::create(Device& device, const SurfaceMesherDesc& desc) {

@@ -32,6 +32,12 @@ class SurfaceMesherImpl {
   };
   struct Frame;
 
+  // surface_mesher.cpp
+  /// Fails if a mesh of the limits does not fit on the device.
+  Expected<void> setSizes(Device& device);
+  Expected<void> makeSorts(Device& device);
+  Expected<void> makePipelines(Device& device);
+  // surface_mesher_passes.cpp
   void add(Graph& graph, std::string_view name, const ComputePipeline* pipeline, const DispatchSize& size, Frame& frame) const;
   void addCounted(Graph& graph, std::string_view name, const ComputePipeline* pipeline, uint32_t arguments, Frame& frame) const;
   void makeBuffers(Graph& graph, Frame& frame) const;
@@ -42,6 +48,7 @@ class SurfaceMesherImpl {
 
   uint32_t binCells_ = 0;  // along a bin
   uint64_t rows_ = 0, corners_ = 0, listed_ = 0;
+  bool texels_ = false;  // arrays are read through texel buffers
   std::array<uint32_t, 512> table_{};
   std::optional<KeySort> blockSort_, reachedSort_, binSort_;
   Scan particleScan_, reachedScan_, rowScan_;
