@@ -1,6 +1,7 @@
 #pragma once
 // What stands around the fluid: sky, floor, solids, the domain's edges or a glass tank, outlines of mouths and drains, drawn as graphics
 // passes with shadows of solids and fluid. scenery_create.cpp: pipelines; scenery_light.cpp: sun, shadows, caustics; scenery.cpp: drawing.
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -46,11 +47,16 @@ class Scenery {
   bool hasEdges() const { return hasDomain() && buffers_.host.scene.domain_max.w > 0; }  // a tank has no grid
   bool hasMeshes() const { return !meshes_.empty(); }
 
+  uint32_t fluidCount() const { return std::max(static_cast<uint32_t>(fluids_.size()), 1u); }
+
+  // scenery_create.cpp
+  Expected<void> makePipelines(Device& device, const TargetFormats& formats);
+
   // scenery_light.cpp
   surface::SurfacePush lightPush(const FluidState& fluid, const Double3& origin) const;
   ImageRef addSolidShadows(Graph& graph, BufferRef poses, const SceneMeshes::Refs& meshes, const surface::SurfacePush& light) const;
-  BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef thickness, double unit,
-                        ImageRef lightDepth, BufferRef record) const;
+  BufferRef addCaustics(Graph& graph, const FluidState& fluid, const FluidLook& look, BufferRef thickness, double unit, ImageRef lightDepth,
+                        BufferRef record) const;
 
   // scenery.cpp
   void addLines(Graph& graph, std::string_view name, SceneTargets& targets, const GraphicsPipeline* pipeline,

@@ -47,15 +47,27 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
   auto stage = SurfaceStage::create(device);
   if (!stage) return stage.error();
   out->stage_ = *stage;
-  if (std::vector<FluidBody> bodies = fluidBodies(scene); bodies.size() > 1) out->fluids_ = std::move(bodies);
-  const auto fluids = static_cast<uint32_t>(std::max<size_t>(out->fluids_.size(), 1));
-  if (fluids > 1)
-    if (auto set = out->stage_.setFluids(device, out->fluids_); !set) return set.error();
+  if (std::vector<FluidBody> bodies = fluidBodies(scene); bodies.size() > 1) {
+    if (auto set = out->stage_.setFluids(device, bodies); !set) return set.error();
+    out->fluids_ = std::move(bodies);
+  }
   auto meshes = SceneMeshes::create(device, scene);
   if (!meshes) return meshes.error();
   out->meshes_ = *std::move(meshes);
   out->hasRayCast_ = std::ranges::any_of(out->buffers_.host.solids, [](const auto& s) { return s.shape.kind != kShapeMesh; });
   const bool solids = !out->buffers_.host.solids.empty();
+  if (scene.look.caustics && (solids || out->hasGround())) {
+    auto caustics = Caustics::create(device, solids, out->fluidCount());
+    if (!caustics) return caustics.error();
+    out->caustics_ = *caustics;
+  }
+  if (auto made = out->makePipelines(device, formats); !made) return made.error();
+  return out;
+}
+
+Expected<void> Scenery::makePipelines(Device& device, const TargetFormats& formats) {
+  const bool solids = !buffers_.host.solids.empty();
+  const uint32_t fluids = fluidCount();
   const std::span<const VkFormat> color{&formats.color, 1};
   struct Wanted {
     const GraphicsPipeline*& pipeline;
@@ -69,44 +81,38 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
                                 .depthCompare = VK_COMPARE_OP_GREATER,
                                 .depthWrite = true};
   };
-  const std::string around = out->hasGround() ? (solids ? "ground_solids" : "ground") : "sky", sky = environment ? "_environment" : "";
-  if (scene.look.caustics && (solids || out->hasGround())) {
-    auto caustics = Caustics::create(device, solids, fluids);
-    if (!caustics) return caustics.error();
-    out->caustics_ = *caustics;
-  }
+  const std::string around = hasGround() ? (solids ? "ground_solids" : "ground") : "sky", sky = environment_ ? "_environment" : "";
   GraphicsPipelineDesc edges = desc("views/scenery_edges_vertex", "views/scenery_edges_fragment");
   edges.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   edges.depthWrite = false;
   edges.blend = Blend::Premultiplied;
   GraphicsPipelineDesc over = edges;
   over.fragment = "views/scenery_edges_over_fluid_fragment";
-  std::vector<Wanted> all{{out->edges_, edges}, {out->edgesOverFluid_, over}};
-  if (!out->buffers_.host.lines.empty()) {
+  std::vector<Wanted> all{{edges_, edges}, {edgesOverFluid_, over}};
+  if (!buffers_.host.lines.empty()) {
     GraphicsPipelineDesc lines = edges, linesOver = over;
     lines.vertex = linesOver.vertex = "views/scenery_lines_vertex";
     linesOver.fragment = "views/scenery_lines_over_fluid_fragment";
-    all.push_back({out->lines_, lines});
-    all.push_back({out->linesOverFluid_, linesOver});
+    all.push_back({lines_, lines});
+    all.push_back({linesOverFluid_, linesOver});
   }
   GraphicsPipelineDesc light = desc("views/scenery_solid_light_vertex", "views/scenery_solid_light_fragment");
   light.colors = {};
   light.depth = kShadowFormat;
   light.depthCompare = VK_COMPARE_OP_LESS;
-  if (out->hasRayCast_) all.push_back({out->solidLight_, light});
-  if (out->hasMeshes()) {
+  if (hasRayCast_) all.push_back({solidLight_, light});
+  if (hasMeshes()) {
     light.vertex = "views/scenery_mesh_light_vertex";
     light.fragment = {};
-    all.push_back({out->meshLight_, light});
+    all.push_back({meshLight_, light});
   }
   std::string shaderNames[2][3];
   for (const bool refracted : {false, true}) {
-    if (refracted && !out->caustics_) continue;
+    if (refracted && !caustics_) continue;
     const std::string suffix = sky + (refracted ? "_caustics" : "") + "_fragment";
     auto& [groundShader, solidShader, meshShader] = shaderNames[refracted];
-    Drawing& drawing = refracted ? out->refracted_ : out->plain_;
-    groundShader =
-        texelVariant(device, "views/scenery_" + around + (out->hasGround() ? suffix : sky + "_fragment"), usesTexelReads(device));
+    Drawing& drawing = refracted ? refracted_ : plain_;
+    groundShader = texelVariant(device, "views/scenery_" + around + (hasGround() ? suffix : sky + "_fragment"), usesTexelReads(device));
     solidShader = "views/scenery_solid" + suffix;
     meshShader = "views/scenery_mesh" + suffix;
     const auto inShadow = [&](const GraphicsPipeline*& pipeline, std::string_view vertex, std::string_view fragment, VkCompareOp compare) {
@@ -116,15 +122,15 @@ Expected<std::unique_ptr<Scenery>> Scenery::create(Device& device, const Scene& 
       all.push_back({pipeline, made});
     };
     inShadow(drawing.ground, "views/scenery_ground_vertex", groundShader, VK_COMPARE_OP_ALWAYS);
-    if (out->hasRayCast_) inShadow(drawing.solid, "views/scenery_solid_vertex", solidShader, VK_COMPARE_OP_GREATER);
-    if (out->hasMeshes()) inShadow(drawing.mesh, "views/scenery_mesh_vertex", meshShader, VK_COMPARE_OP_GREATER);
+    if (hasRayCast_) inShadow(drawing.solid, "views/scenery_solid_vertex", solidShader, VK_COMPARE_OP_GREATER);
+    if (hasMeshes()) inShadow(drawing.mesh, "views/scenery_mesh_vertex", meshShader, VK_COMPARE_OP_GREATER);
   }
   for (const Wanted& wanted : all) {
     auto made = graphicsPipeline(device, wanted.desc);
     if (!made) return made.error();
     wanted.pipeline = *made;
   }
-  return out;
+  return {};
 }
 
 }  // namespace rill
