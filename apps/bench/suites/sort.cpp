@@ -109,6 +109,37 @@ Expected<Samples> timedOnDevice(Workbench& workbench, uint32_t repeat, const Key
   return samples;
 }
 
+struct SamplesOfAll {
+  Samples counting, radix, std, stable;
+};
+
+/// Times the sorts of one case, on the device and of the standard library.
+Expected<SamplesOfAll> timedByAll(Workbench& workbench, uint32_t repeat, const Kind& kind, KeySortDesc desc, const std::string& name,
+                                  Report& report) {
+  std::mt19937 random(desc.count);
+  Keys keys(desc.count);
+  std::vector<Pair> pairs(desc.count), sorted;
+  for (uint32_t i = 0; i < desc.count; ++i) {
+    keys[i] = kind.key(i, desc.count, random);
+    pairs[i] = {keys[i], i};
+  }
+  SamplesOfAll all;
+  // By key, then by index, which equals the result of a stable sort.
+  all.std = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) { std::sort(p.begin(), p.end()); });
+  all.stable = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) {
+    std::stable_sort(p.begin(), p.end(), [](const Pair& a, const Pair& b) { return a.first < b.first; });
+  });
+  const auto uploaded = workbench.upload("bench keys", std::span<const uint32_t>(keys));
+  if (!uploaded) return uploaded.error();
+  for (const bool counting : {true, false}) {
+    desc.method = counting ? SortMethod::Counting : SortMethod::Radix;
+    auto samples = timedOnDevice(workbench, repeat, desc, *uploaded, sorted, name, report);
+    if (!samples) return samples.error();
+    (counting ? all.counting : all.radix) = std::move(*samples);
+  }
+  return all;
+}
+
 Json json(const Samples& samples) {
   if (!samples.skipReason.empty()) return {{"skipped", samples.skipReason}};
   return {{"ms", sampleStatistics(samples.run_ms)}, {"with_everything_ms", sampleStatistics(samples.total_ms)}};
@@ -159,31 +190,11 @@ Expected<Report> runAll(Bench& bench) {
       if (!bench.selected(name)) continue;
       if (bench.stopped()) break;
       bench.step(name, partsOf(count));
-      std::mt19937 random(count);
-      Keys keys(count);
-      std::vector<Pair> pairs(count), sorted;
-      for (uint32_t i = 0; i < count; ++i) {
-        keys[i] = kind.key(i, count, random);
-        pairs[i] = {keys[i], i};
-      }
-      const uint32_t repeat = samplesOf(bench, count);
-      // By key, then by index, which equals the result of a stable sort.
-      const Samples byStd = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) { std::sort(p.begin(), p.end()); });
-      const Samples byStable = timedOnHost(repeat, pairs, sorted, [](std::vector<Pair>& p) {
-        std::stable_sort(p.begin(), p.end(), [](const Pair& a, const Pair& b) { return a.first < b.first; });
-      });
-      const auto uploaded = workbench->upload("bench keys", std::span<const uint32_t>(keys));
-      if (!uploaded) return uploaded.error();
-      KeySortDesc desc{.count = count, .keyRange = kind.range(count), .start = kind.start};
+      const KeySortDesc desc{.count = count, .keyRange = kind.range(count), .start = kind.start};
       const bool autoCounts = chooseSortMethod(desc) == SortMethod::Counting;
-      Samples byMethod[2];
-      for (const bool counting : {true, false}) {
-        desc.method = counting ? SortMethod::Counting : SortMethod::Radix;
-        auto samples = timedOnDevice(*workbench, repeat, desc, *uploaded, sorted, name, report);
-        if (!samples) return samples.error();
-        byMethod[counting ? 0 : 1] = std::move(*samples);
-      }
-      const auto& [byCounting, byRadix] = byMethod;
+      const auto timed = timedByAll(*workbench, samplesOf(bench, count), kind, desc, name, report);
+      if (!timed) return timed.error();
+      const auto& [byCounting, byRadix, byStd, byStable] = *timed;
       const double chosen = (autoCounts ? byCounting : byRadix).medianMs();
       const double best = byCounting.skipReason.empty() ? std::min(byCounting.medianMs(), byRadix.medianMs()) : byRadix.medianMs();
       const double host = std::min(byStd.medianMs(), byStable.medianMs());
