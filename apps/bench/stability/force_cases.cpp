@@ -51,134 +51,152 @@ StressCase shakenCup(bool sheet) {
   return c;
 }
 
+StressCase oneSubstepPerFrame(double step) {
+  Scene scene = dam();
+  scene.solver.time_step = step;
+  scene.solver.max_substeps = 1;
+  scene.solver.tolerance = 0;
+  scene.solver.cfl = 10;
+  StressCase c = make("step-" + number(step) + "-s", "one substep per frame: the remaining time is reported as dropped", scene);
+  c.check = [](const StressOutcome& o) {
+    return o.run.timeDropped_s > 0 ? std::string() : std::string("time_dropped_s: found 0, expected above 0");
+  };
+  return c;
+}
+
+StressCase weightless10S() {
+  Scene drop;
+  drop.name = "stress";
+  drop.fluid.spacing = 0.05;
+  for (double& g : drop.gravity) g = 0;
+  Fill ball;
+  ball.shape = SphereShape{{0, 0, 0}, 0.2};
+  ball.velocity[0] = 0.3;
+  ball.velocity[1] = -0.1;
+  drop.fill.push_back(ball);
+  StressCase c = make("weightless-10-s", "momentum is conserved to 1e-5", drop);
+  c.maxSpeed = 1;
+  c.duration_s = 10;
+  c.frame_s = 0.1;
+  c.check = [](const StressOutcome& o) {
+    const auto &a = o.run.instants.front().stats.momentum, &b = o.run.instants.back().stats.momentum;
+    const double change = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) / std::hypot(a[0], a[1], a[2]);
+    return change > 1e-5 ? "relative change of momentum: found " + number(change) + ", expected at most 1e-5" : std::string();
+  };
+  return c;
+}
+
+StressCase gravity1000() {
+  Scene heavy = dam();
+  heavy.gravity[1] = -1000;
+  heavy.solver.max_substeps = 256;
+  StressCase c = make("gravity-1000", "", heavy);
+  c.duration_s = 0.1;
+  c.frame_s = 1.0 / 600;
+  return c;
+}
+
+StressCase gravityFlips() {
+  Scene flips = dam();
+  for (int k = 1; k < 10; ++k) flips.gravity_changes.push_back({0.1 * k, {0, k % 2 ? 9.81 : -9.81, 0}});
+  StressCase c = make("gravity-flips", "", flips);
+  c.externalWork = true;
+  c.duration_s = 1;
+  return c;
+}
+
+StressCase originAt10Km() {
+  Scene far = dam();
+  for (int axis = 0; axis < 3; ++axis) {
+    far.domain->min[axis] += 1e4;
+    far.domain->max[axis] += 1e4;
+    auto& box = std::get<BoxShape>(far.fill[0].shape);
+    box.min[axis] += 1e4;
+    box.max[axis] += 1e4;
+  }
+  StressCase c = make("origin-at-10-km", "as at the origin: mean error and final energy ratio", far);
+  c.reference = dam();
+  return c;
+}
+
+StressCase column100Layers() {
+  constexpr double d = 0.02;
+  Scene column = tankScene(d, {10 * d, 100 * d, 10 * d}, {10 * d, 130 * d, 10 * d});
+  StressCase c = make("column-100-layers", "level within 1 %; rms speed under 0.01 sqrt(g d) = 4.4 mm/s", column);
+  c.duration_s = 2;
+  c.fullOnly = true;
+  c.check = [](const StressOutcome& o) {
+    const Cloud cloud = cloudOf(o.particles, d);
+    const double level = surfaceLevel(cloud, 0, 0, 10 * d), speed = rmsSpeed(cloud);
+    if (std::abs(level - 2) > 0.02) return "level: found " + number(level, 4) + " m, expected 2 m within 1 %";
+    return speed > 0.01 * std::sqrt(9.81 * d) ? "rms speed: found " + number(speed) + " m/s, expected at most 4.4e-3 m/s" : std::string();
+  };
+  return c;
+}
+
+/// A piston compresses the fluid to 80 % of its volume, holds, and retracts.
+StressCase crushedTo80Percent() {
+  Scene crush = tankScene(0.05, {0.5, 0.5, 0.5}, {0.6, 0.5, 0.5});
+  Solid piston;
+  piston.shape = BoxShape{{0.5, -0.1, -0.1}, {0.6, 0.6, 0.6}};
+  piston.motion = {{0, {0, 0, 0}}, {0.2, {-0.1, 0, 0}}, {0.4, {-0.1, 0, 0}}, {0.5, {0, 0, 0}}};
+  crush.solids.push_back(piston);
+  StressCase c = make("crushed-to-80-percent", "after release, the speed falls below 2 m/s", crush);
+  c.externalWork = true;
+  c.duration_s = 1.5;
+  c.maxSpeed = 60;
+  c.fullOnly = true;
+  c.check = [](const StressOutcome& o) {
+    const double speed = o.run.instants.back().stats.maxSpeed;
+    return speed > 2 ? "maximum speed: found " + number(speed) + " m/s, expected at most 2 m/s" : std::string();
+  };
+  return c;
+}
+
+/// A box closes in on a wall until it touches it. A fall through the room gives 4 m/s.
+StressCase boxThatClosesOnAWall() {
+  constexpr double d = kTankSpacing;
+  Scene closing = tankScene(d, {16 * d, 8 * d, 8 * d}, {16 * d, 16 * d, 12 * d});
+  closing.solids = {{.shape = BoxShape{{10 * d, 0, 2 * d}, {14 * d, 3 * d, 6 * d}}}};
+  closing.solids[0].motion = {{0, {0, 0, 0}}, {0.8, {0, 0, -2 * d}}};
+  StressCase c = make("box-that-closes-on-a-wall", "", closing);
+  c.externalWork = true;
+  c.duration_s = 1;
+  c.maxSpeed = 8;
+  return c;
+}
+
+/// The long case settles, the short one starts at rest: sloshing exchanges energy with the lattice and looks like drift.
+StressCase manySteps(bool longRun) {
+  Scene small = tankScene(0.05, longRun ? Double3{0.2, 0.2, 0.2} : Double3{0.4, 0.1, 0.2}, {0.4, 0.4, 0.2});
+  const int substeps = longRun ? 100000 : 5000;
+  small.solver.time_step = 1.0 / 3840;
+  small.solver.tolerance = 0;
+  StressCase c = make(std::to_string(substeps) + "-steps", "energy does not drift; a second run gives the same bits", small);
+  c.duration_s = substeps / 3840.0;
+  c.checksRepeat = true;
+  c.frame_s = 1.0 / 60;
+  c.fullOnly = longRun;
+  return c;
+}
+
 }  // namespace
 
 std::vector<StressCase> forceCases() {
   std::vector<StressCase> cases;
-  for (const double step : {0.1, 1.0}) {
-    Scene scene = dam();
-    scene.solver.time_step = step;
-    scene.solver.max_substeps = 1;
-    scene.solver.tolerance = 0;
-    scene.solver.cfl = 10;
-    StressCase c = make("step-" + number(step) + "-s", "one substep per frame: the remaining time is reported as dropped", scene);
-    c.check = [](const StressOutcome& o) {
-      return o.run.timeDropped_s > 0 ? std::string() : std::string("time_dropped_s: found 0, expected above 0");
-    };
-    cases.push_back(std::move(c));
-  }
-  {
-    Scene drop;
-    drop.name = "stress";
-    drop.fluid.spacing = 0.05;
-    for (double& g : drop.gravity) g = 0;
-    Fill ball;
-    ball.shape = SphereShape{{0, 0, 0}, 0.2};
-    ball.velocity[0] = 0.3;
-    ball.velocity[1] = -0.1;
-    drop.fill.push_back(ball);
-    StressCase c = make("weightless-10-s", "momentum is conserved to 1e-5", drop);
-    c.maxSpeed = 1;
-    c.duration_s = 10;
-    c.frame_s = 0.1;
-    c.check = [](const StressOutcome& o) {
-      const auto &a = o.run.instants.front().stats.momentum, &b = o.run.instants.back().stats.momentum;
-      const double change = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) / std::hypot(a[0], a[1], a[2]);
-      return change > 1e-5 ? "relative change of momentum: found " + number(change) + ", expected at most 1e-5" : std::string();
-    };
-    cases.push_back(std::move(c));
-  }
-  {
-    Scene heavy = dam();
-    heavy.gravity[1] = -1000;
-    heavy.solver.max_substeps = 256;
-    StressCase c = make("gravity-1000", "", heavy);
-    c.duration_s = 0.1;
-    c.frame_s = 1.0 / 600;
-    cases.push_back(std::move(c));
-  }
-  {
-    Scene flips = dam();
-    for (int k = 1; k < 10; ++k) flips.gravity_changes.push_back({0.1 * k, {0, k % 2 ? 9.81 : -9.81, 0}});
-    StressCase c = make("gravity-flips", "", flips);
-    c.externalWork = true;
-    c.duration_s = 1;
-    cases.push_back(std::move(c));
-  }
+  for (const double step : {0.1, 1.0}) cases.push_back(oneSubstepPerFrame(step));
+  cases.push_back(weightless10S());
+  cases.push_back(gravity1000());
+  cases.push_back(gravityFlips());
   cases.push_back(scaled("spacing-0.05-mm", 5e-5));
   cases.push_back(scaled("spacing-50-m", 50));
   cases.back().fullOnly = true;
-  {
-    Scene far = dam();
-    for (int axis = 0; axis < 3; ++axis) {
-      far.domain->min[axis] += 1e4;
-      far.domain->max[axis] += 1e4;
-      auto& box = std::get<BoxShape>(far.fill[0].shape);
-      box.min[axis] += 1e4;
-      box.max[axis] += 1e4;
-    }
-    StressCase c = make("origin-at-10-km", "as at the origin: mean error and final energy ratio", far);
-    c.reference = dam();
-    cases.push_back(std::move(c));
-  }
-  {
-    constexpr double d = 0.02;
-    Scene column = tankScene(d, {10 * d, 100 * d, 10 * d}, {10 * d, 130 * d, 10 * d});
-    StressCase c = make("column-100-layers", "level within 1 %; rms speed under 0.01 sqrt(g d) = 4.4 mm/s", column);
-    c.duration_s = 2;
-    c.fullOnly = true;
-    c.check = [](const StressOutcome& o) {
-      const Cloud cloud = cloudOf(o.particles, d);
-      const double level = surfaceLevel(cloud, 0, 0, 10 * d), speed = rmsSpeed(cloud);
-      if (std::abs(level - 2) > 0.02) return "level: found " + number(level, 4) + " m, expected 2 m within 1 %";
-      return speed > 0.01 * std::sqrt(9.81 * d) ? "rms speed: found " + number(speed) + " m/s, expected at most 4.4e-3 m/s" : std::string();
-    };
-    cases.push_back(std::move(c));
-  }
-  {
-    // A piston compresses the fluid to 80 % of its volume, holds, and retracts.
-    Scene crush = tankScene(0.05, {0.5, 0.5, 0.5}, {0.6, 0.5, 0.5});
-    Solid piston;
-    piston.shape = BoxShape{{0.5, -0.1, -0.1}, {0.6, 0.6, 0.6}};
-    piston.motion = {{0, {0, 0, 0}}, {0.2, {-0.1, 0, 0}}, {0.4, {-0.1, 0, 0}}, {0.5, {0, 0, 0}}};
-    crush.solids.push_back(piston);
-    StressCase c = make("crushed-to-80-percent", "after release, the speed falls below 2 m/s", crush);
-    c.externalWork = true;
-    c.duration_s = 1.5;
-    c.maxSpeed = 60;
-    c.fullOnly = true;
-    c.check = [](const StressOutcome& o) {
-      const double speed = o.run.instants.back().stats.maxSpeed;
-      return speed > 2 ? "maximum speed: found " + number(speed) + " m/s, expected at most 2 m/s" : std::string();
-    };
-    cases.push_back(std::move(c));
-  }
-  {
-    // A box closes in on a wall until it touches it. A fall through the room gives 4 m/s.
-    constexpr double d = kTankSpacing;
-    Scene closing = tankScene(d, {16 * d, 8 * d, 8 * d}, {16 * d, 16 * d, 12 * d});
-    closing.solids = {{.shape = BoxShape{{10 * d, 0, 2 * d}, {14 * d, 3 * d, 6 * d}}}};
-    closing.solids[0].motion = {{0, {0, 0, 0}}, {0.8, {0, 0, -2 * d}}};
-    StressCase c = make("box-that-closes-on-a-wall", "", closing);
-    c.externalWork = true;
-    c.duration_s = 1;
-    c.maxSpeed = 8;
-    cases.push_back(std::move(c));
-  }
+  cases.push_back(originAt10Km());
+  cases.push_back(column100Layers());
+  cases.push_back(crushedTo80Percent());
+  cases.push_back(boxThatClosesOnAWall());
   for (const bool sheet : {false, true}) cases.push_back(shakenCup(sheet));
-  for (const bool longRun : {false, true}) {
-    // The long case settles, the short one starts at rest: sloshing exchanges energy with the lattice and looks like drift.
-    Scene small = tankScene(0.05, longRun ? Double3{0.2, 0.2, 0.2} : Double3{0.4, 0.1, 0.2}, {0.4, 0.4, 0.2});
-    const int substeps = longRun ? 100000 : 5000;
-    small.solver.time_step = 1.0 / 3840;
-    small.solver.tolerance = 0;
-    StressCase c = make(std::to_string(substeps) + "-steps", "energy does not drift; a second run gives the same bits", small);
-    c.duration_s = substeps / 3840.0;
-    c.checksRepeat = true;
-    c.frame_s = 1.0 / 60;
-    c.fullOnly = longRun;
-    cases.push_back(std::move(c));
-  }
+  for (const bool longRun : {false, true}) cases.push_back(manySteps(longRun));
   return cases;
 }
 
