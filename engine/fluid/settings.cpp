@@ -138,6 +138,57 @@ uint32_t listCapacity(double reachInSpacings, bool segments) {
   return entries;
 }
 
+namespace {
+
+void setKernel(const Scene& scene, const SmoothingKernel& kernel, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
+  setup.kernel = scene.solver.kernel == KernelChoice::Wendland ? 0u : 1u;
+  p.spacing = f(d);
+  p.support = f(h);
+  p.inverseSupport = f(1 / h);
+  p.valueScale = f(kernel.valueScale());
+  p.liquidExcess = f(liquidScale(kernel) - 1);
+  if (const double time = meltingTime(scene); time > 0) p.inverseMeltingTime = f(1 / time);
+  p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
+  p.inverseRestGradient = f(1 / kernel.restGradientSum());
+}
+
+void setLists(const Scene& scene, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  const double d = scene.fluid.spacing, h = scene.fluid.smoothing_ratio * d;
+  p.reach = f(std::max(h, reachOfTension(scene) * d) + kListSkin * d);
+  p.nearReach = reachOfTension(scene) > 0 ? f(h + kListSkin * d) : p.reach;
+  p.travelLimit = f((reachOfTension(scene) > 0 ? kTravelWithTension : kTravel) * d);
+  setup.substepsPerBlock = substepsPerBlock(scene.solver);
+  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), listsHaveSegments(scene)) : 0u;
+}
+
+Expected<void> addObstacles(const Scene& scene, const SmoothingKernel& kernel, const Double3& origin, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  if (!scene.solids.empty() || !emittersOf(scene).empty()) addHalfSpaceTable(kernel, setup);
+  if (auto added = addSolids(scene, kernel, origin, setup); !added)
+    return Error{added.error().kind, (scene.file.empty() ? "" : scene.file.string() + ": ") + added.error().message};
+  p.solidCount = static_cast<uint32_t>(setup.solids.size());
+  p.bodyCount = static_cast<uint32_t>(setup.bodies.size());
+  if (const double gravity = strongestGravity(scene); p.bodyCount > 0 && gravity > 0)
+    boundStep(std::sqrt(kContactFall * scene.fluid.spacing / gravity), "gravity " + roundedNumber(gravity) + " m/s^2, for bodies", setup);
+  p.contactPoints = static_cast<uint32_t>(setup.contactPoints.size());
+  p.bodySpeed = f(fastestBody(scene));
+  return {};
+}
+
+void setGrid(const Double3& room, FluidSetup& setup) {
+  FluidParams& p = setup.params;
+  setup.grid = chooseGridSize(p.reach, extentWithGap(room, setup), p.capacity);
+  p.gridSizeX = setup.grid.size[0];
+  p.gridSizeY = setup.grid.size[1];
+  p.gridSizeZ = setup.grid.size[2];
+  p.inverseCell = f(1 / setup.grid.cell);
+}
+
+}  // namespace
+
 Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& start) {
   if (auto possible = checkScene(scene); !possible) return possible.error();
   const Double3 &origin = start.origin, &extent = start.extent;
@@ -147,26 +198,14 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   FluidSetup setup;
   FluidParams& p = setup.params;
   const SmoothingKernel kernel(scene.solver.kernel, h, d);
-  setup.kernel = scene.solver.kernel == KernelChoice::Wendland ? 0u : 1u;
+  setKernel(scene, kernel, setup);
 
   p.capacity = start.capacity;
   p.outflowLevel = kNoWall;
-  p.spacing = f(d);
-  p.support = f(h);
-  p.inverseSupport = f(1 / h);
-  p.valueScale = f(kernel.valueScale());
-  p.liquidExcess = f(liquidScale(kernel) - 1);
-  if (const double time = meltingTime(scene); time > 0) p.inverseMeltingTime = f(1 / time);
-  p.gradientScale = f(setup.kernel == 0 ? kernel.gradientScale() : kernel.gradientScale() / h);
-  p.inverseRestGradient = f(1 / kernel.restGradientSum());
   setup.limits = stabilityLimits(scene, kernel);
   setRegularization(scene, kernel, setup);
   setRelaxation(setup);
-  p.reach = f(std::max(h, reachOfTension(scene) * d) + kListSkin * d);
-  p.nearReach = reachOfTension(scene) > 0 ? f(h + kListSkin * d) : p.reach;
-  p.travelLimit = f((reachOfTension(scene) > 0 ? kTravelWithTension : kTravel) * d);
-  setup.substepsPerBlock = substepsPerBlock(scene.solver);
-  p.listCapacity = scene.solver.neighbors == NeighborChoice::List ? listCapacity(listReach(scene), listsHaveSegments(scene)) : 0u;
+  setLists(scene, setup);
   setCfl(scene, setup);
   p.iterations = scene.solver.iterations;
   // Iterations do not stop at an error at which the fluid is unstable.
@@ -188,15 +227,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setup.held = setup.walls || holdsFluid(scene);
   // Where both walls of an axis can be within a support of the centers between them.
   for (int a = 0; a < 3 && scene.domain; ++a) setup.thin |= scene.domain->max[a] - scene.domain->min[a] < 2 * h;
-  if (!scene.solids.empty() || !emittersOf(scene).empty()) addHalfSpaceTable(kernel, setup);
-  if (auto added = addSolids(scene, kernel, origin, setup); !added)
-    return Error{added.error().kind, (scene.file.empty() ? "" : scene.file.string() + ": ") + added.error().message};
-  p.solidCount = static_cast<uint32_t>(setup.solids.size());
-  p.bodyCount = static_cast<uint32_t>(setup.bodies.size());
-  if (const double gravity = strongestGravity(scene); p.bodyCount > 0 && gravity > 0)
-    boundStep(std::sqrt(kContactFall * d / gravity), "gravity " + roundedNumber(gravity) + " m/s^2, for bodies", setup);
-  p.contactPoints = static_cast<uint32_t>(setup.contactPoints.size());
-  p.bodySpeed = f(fastestBody(scene));
+  if (auto added = addObstacles(scene, kernel, origin, setup); !added) return added.error();
   addPressureProbes(scene, kernel, origin, setup);
   if (auto added = addFlows(scene, origin, setup); !added) return added.error();
   setup.removes = removes(scene);
@@ -221,11 +252,7 @@ Expected<FluidSetup> makeFluidSetup(const Scene& scene, const StartFigures& star
   setInitialPressure(scene, kernel, room, setup);
 
   if (auto able = checkSteps(scene, room, setup); !able) return able.error();
-  setup.grid = chooseGridSize(p.reach, extentWithGap(room, setup), start.capacity);
-  p.gridSizeX = setup.grid.size[0];
-  p.gridSizeY = setup.grid.size[1];
-  p.gridSizeZ = setup.grid.size[2];
-  p.inverseCell = f(1 / setup.grid.cell);
+  setGrid(room, setup);
   addRegions(room, setup);
   return setup;
 }
