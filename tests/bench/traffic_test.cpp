@@ -118,6 +118,9 @@ TEST(Traffic, CountsEachPassThatRunsInItsSection) {
   const auto correct = found("correct");
   const double all = double(counted->traffic.particles) * counted->traffic.substeps;
   EXPECT_GT(correct->readBytes / all, 100);
+  // Of particles near solids `pairs at solids` gathers what `correct` leaves out.
+  const auto gathered = [&](std::string_view name) { return found(name)->gatheredBytes / double(found(name)->executed); };
+  EXPECT_LT(gathered("correct"), 0.995 * gathered("density"));
 }
 
 ShaderAccesses accessesOf(std::string_view shader, std::string_view constant, uint32_t value) {

@@ -61,6 +61,12 @@ double touched(const FluidPassRow& pass, const ArrayRow& row, double covered, co
   }
 }
 
+/// Those of `covered` particles whose neighbors a pass visits: near solids `correct` and `iterate` have the sums of pairs.comp.
+double visiting(const FluidPassRow& pass, double covered, const FluidCounts& counts) {
+  const bool skips = pass.id == FluidPass::Correct || pass.id == FluidPass::Iterate;
+  return skips ? covered * (1 - counts.nearSolids / counts.particles) : covered;
+}
+
 void addBytes(PassTraffic& to, const FluidPassRow* pass, const TracedDispatch& dispatch, const ArrayShape& shape,
               const FluidCounts& counts) {
   const double covered = std::min(double(dispatch.groups) * dispatch.groupSize, counts.particles);
@@ -70,10 +76,11 @@ void addBytes(PassTraffic& to, const FluidPassRow* pass, const TracedDispatch& d
     if (pass && array && array->id == FluidArray::List) {
       // Neighbors are not in the shader: as many as the lists had, rounded up to a whole load or store.
       const double group = std::max({binding.access.readBytes, binding.access.writeBytes, array->stride});
-      bytes = covered * counts.entries * array->stride + covered * (group - array->stride) / 2;
+      bytes = visiting(*pass, covered, counts) * (counts.entries * array->stride + (group - array->stride) / 2);
     } else if (const uint64_t elements = pass && array ? elementsPerParticle(*array, shape) : 0; elements > 0) {
       bytes = touched(*pass, *array, covered, counts) * double(elements) * array->stride;
-      if (gathers(pass->extent) && binding.access.readsInLoop) to.gatheredBytes += covered * counts.entries * array->stride;
+      if (gathers(pass->extent) && binding.access.readsInLoop)
+        to.gatheredBytes += visiting(*pass, covered, counts) * counts.entries * array->stride;
     }
     if (binding.access.reads) to.readBytes += bytes;
     if (binding.access.writes) to.writtenBytes += bytes;
