@@ -26,6 +26,7 @@ bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool tense(const FluidSetup& s) { return s.params.tensionRate > 0; }
 bool tenseAtSolids(const FluidSetup& s) { return tense(s) && solids(s); }
+bool loadsOfTension(const FluidSetup& s) { return tenseAtSolids(s) && s.loads; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
 bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
@@ -106,7 +107,7 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::NoSlipSums, "no-slip sums of bodies", "fluid/no_slip_sums", E::NearSolids, kEnd, {noSlipBodies}},
     {P::NoSlipBodies, "no slip of bodies", "fluid/no_slip_bodies", E::Bodies, kEnd, {noSlipBodies}},
     {P::NoSlip, "no slip at bodies", "fluid/no_slip", E::NearSolids, kEnd, {noSlipAfterwards}},
-    {P::NoSlipLoads, "no-slip loads", "fluid/no_slip_loads", E::One, kEnd, {noSlipLoads}},
+    {P::NoSlipLoads, "no-slip loads", "fluid/force_loads", E::One, kEnd, {noSlipLoads}},
     {P::ViscousDisplacement, "viscous displacement", "fluid/viscous_displacement", E::Particles, kEnd, {shearViscosity}},
     {P::VelocityNoise, "velocity noise", "fluid/velocity_noise", E::Gather, {S::NoiseDamping}, kNoisy},
     {P::NoiseDamping, "noise damping", "fluid/noise_damping", E::Gather, {S::NoiseDamping}, kNoisy},
@@ -121,6 +122,8 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::SurfaceParticles, "particles at surfaces", "fluid/surface_particles", E::Gather, kEnd, {tense}},
     {P::SurfaceTension, "surface tension", "fluid/surface_tension", E::Gather, kEnd, kTense},
     {P::SurfaceForces, "forces of surfaces", "fluid/surface_forces", E::Particles, kEnd, {tense}},
+    {P::SurfaceReactions, "surface tension on solids", "fluid/surface_reactions", E::NearSolids, kEnd, {loadsOfTension}},
+    {P::SurfaceLoads, "surface loads", "fluid/force_loads", E::One, kEnd, {loadsOfTension}},
     {P::PredictAfterForces, "predict after forces", "fluid/predict", E::Particles, kEndOrDamped, {forcesOrDamping}},
     {P::PredictAtSolids, "predict at solids", "fluid/predict", E::NearSolids, kEndOrDamped, {forcesOrDampingAtSolids}},
     {P::KeepMouthsFree, "keep mouths free", "fluid/mouths", E::NearMouths, kEnd, {emits}},

@@ -78,6 +78,8 @@ enum class FluidPass : uint8_t {
   SurfaceParticles,
   SurfaceTension,
   SurfaceForces,
+  SurfaceReactions,
+  SurfaceLoads,
   PredictAfterForces,
   PredictAtSolids,
   KeepMouthsFree,

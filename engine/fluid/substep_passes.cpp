@@ -94,7 +94,7 @@ void FluidImpl::declareNoSlip(Graph& graph) {
   declare(graph, FluidPass::NoSlipSums, Start::Correct);
   declare(graph, FluidPass::NoSlipBodies, Start::Correct);
   declare(graph, FluidPass::NoSlip, Start::Correct);
-  declare(graph, FluidPass::NoSlipLoads, Start::Correct, LoadPush{1});
+  declare(graph, FluidPass::NoSlipLoads, Start::Correct, LoadPush{exists(FluidPass::SurfaceLoads, setup) ? 0u : 1u});
 }
 
 // By the positions at the end of the substep.
@@ -105,6 +105,8 @@ void FluidImpl::declareTension(Graph& graph) {
   declare(graph, FluidPass::SurfaceParticles, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::SurfaceTension, Start::Correct, ChunkPush{});
   declare(graph, FluidPass::SurfaceForces, Start::Correct);
+  declare(graph, FluidPass::SurfaceReactions, Start::Correct);
+  declare(graph, FluidPass::SurfaceLoads, Start::Correct, LoadPush{1});
   alias(Particle, Work);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "fluid/fluids.hpp"
 #include "fluid/numbers.hpp"
 #include "fluid/steps.hpp"
+#include "shape/shape.hpp"
 #include "sph/surface_tension.hpp"
 
 namespace rill {
@@ -33,6 +35,24 @@ void warnOfRaisedTensions(const Scene& scene, FluidSetup& setup) {
     if (const double given = scene.fluids[k].surface_tension.value_or(scene.fluid.surface_tension); given < fluids[k].surfaceTension)
       setup.warnings.push_back("fluids." + fluids[k].name + ".surface_tension: found " + roundedNumber(given) + " N/m, expected at least " +
                                roundedNumber(fluids[k].surfaceTension) + " for the tension of its interfaces; it is simulated with that");
+}
+
+/// The body that asks for the shortest step, s: it is so light that what pulls at its surface would swing it.
+struct LightestBody {
+  size_t solid = 0;
+  double step = std::numeric_limits<double>::infinity();
+};
+LightestBody lightestBody(const Scene& scene, const FluidSetup& setup, double tension) {
+  constexpr double kStiffness = 3;  // N/m over the tension, of each square spacing around the body
+  const double d = scene.fluid.spacing;
+  LightestBody lightest;
+  for (const BodyRecord& body : setup.bodies) {
+    const Double3 half = halfExtents(scene.solids[body.solid].shape);
+    const double x = half.x + d / 2, y = half.y + d / 2, z = half.z + d / 2, area = 8 * (x * y + y * z + z * x);
+    const double step = d * std::sqrt(double{body.mass} / (kStiffness * tension * area));
+    if (step < lightest.step) lightest = {body.solid, step};
+  }
+  return lightest;
 }
 
 }  // namespace
@@ -59,6 +79,13 @@ void addTension(const Scene& scene, FluidSetup& setup) {
                              " allows at this spacing: steps are at most " + roundedNumber(step) + " s");
   boundStep(step, shownTension(scene), setup);
   warnOfDropping(shownTension(scene), step, setup);
+  if (const LightestBody light = lightestBody(scene, setup, tension); light.step < step) {
+    constexpr double kShortest = 0.1;  // of the step without bodies: what is lighter is not resolved
+    const double shorter = std::max(light.step, kShortest * step);
+    const std::string why = elementPath("solids", light.solid) + ".body with " + shownTension(scene);
+    boundStep(shorter, why, setup);
+    warnOfDropping(why, shorter, setup);
+  }
 }
 
 }  // namespace rill

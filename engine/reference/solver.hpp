@@ -128,13 +128,13 @@ class ReferenceSolver {
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
   ///   N = eta / (|eta| + 0.001 |omega| / h).
   void vorticity(double dt);
-  void surfaceTension(double dt);          ///< v: sph/surface_tension.hpp, at the positions x
+  void surfaceTension(double dt);          ///< v, bodies: sph/surface_tension.hpp, at the positions x
   double surfaceEnergy() const;            ///< its energy, J
   void drag(double dt);                    ///< v: dv/dt = -drag v
   void predict(double dt, double dtNext);  ///< w, x*
 
   /// Impulses of the fluid on the solids in the last substep, about their centers; gravity on a solid is not included. They are the
-  /// reaction to what the particle's displacement owes to the solid: its density, collisions and contact.
+  /// reaction to what the particle's displacement owes to the solid: its density, collisions, contact, tension.
   std::span<const Impulse> impulses() const { return impulses_; }
   const Bodies& bodies() const { return bodies_; }  ///< the solids that are rigid bodies
 
@@ -212,6 +212,7 @@ class ReferenceSolver {
     double open;             ///< 1 - c
     double weight;           ///< w
     glm::dvec3 weightSlope;  ///< its gradient, times the spacing
+    size_t solid;            ///< that w is of
   };
   std::vector<SurfaceSample> surfaceSamples() const;
   double tensionOf(size_t i) const;                                                ///< N/m

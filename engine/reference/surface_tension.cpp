@@ -16,6 +16,8 @@ namespace {
 struct Plane {
   glm::dvec3 normal;  ///< away from it
   double distance;    ///< of the particle, m
+  size_t solid = kWall;
+  static constexpr size_t kWall = std::numeric_limits<size_t>::max();
 };
 
 double squareOf(const glm::dvec3& v) { return glm::dot(v, v); }
@@ -49,7 +51,7 @@ std::vector<ReferenceSolver::SurfaceSample> ReferenceSolver::surfaceSamples() co
     Plane nearest{{0, 1, 0}, std::numeric_limits<double>::infinity()};
     for (size_t n = 0; n < solids.size(); ++n)
       if (const SurfacePoint point = surfaceOf(n, solids[n], x); point.distance < nearest.distance)
-        nearest = {vec(point.normal), point.distance};
+        nearest = {vec(point.normal), point.distance, n};
     planes.push_back(nearest);
     for (const Double3& direction : directions) {
       const glm::dvec3 offset = radius * vec(direction);
@@ -62,7 +64,7 @@ std::vector<ReferenceSolver::SurfaceSample> ReferenceSolver::surfaceSamples() co
       const auto away = [&](const Plane& plane) { return plane.distance + glm::dot(plane.normal, offset); };
       const Plane plane = std::ranges::min(planes, {}, away);
       const TensionWeight weight = tensionWeight(away(plane) / d, settings.wettingCosine);
-      samples.push_back({i, offset, 1 - covered, weight.value, weight.slope * plane.normal});
+      samples.push_back({i, offset, 1 - covered, weight.value, weight.slope * plane.normal, plane.solid});
     }
   }
   return samples;
@@ -71,9 +73,13 @@ std::vector<ReferenceSolver::SurfaceSample> ReferenceSolver::surfaceSamples() co
 void ReferenceSolver::surfaceTension(double dt) {
   const double d = settings.spacing, support = double{kTensionSupport} * d;
   const Neighbors near = findNeighbors(state.position, double{kTensionReach} * d);
+  const std::vector<Pose> solids = poses(time_, 0);
+  std::vector<Impulse> reactions(solids.size());
+  const AddReaction add = addTo(reactions, solids, dt);
   for (const SurfaceSample& sample : surfaceSamples()) {
     const TensionRates rates = tensionRates(tensionOf(sample.particle), settings.density, d);
     glm::dvec3 own = -rates.wall * sample.open * sample.open * sample.weightSlope;
+    if (sample.solid != Plane::kWall) add(sample.solid, own, state.position[sample.particle] + sample.offset);
     for (const uint32_t j : near.of(sample.particle)) {
       const glm::dvec3 apart = state.position[sample.particle] + sample.offset - state.position[j];
       const double nearness = std::max(0.0, 1 - squareOf(apart) / (support * support));
@@ -83,6 +89,12 @@ void ReferenceSolver::surfaceTension(double dt) {
     }
     state.velocity[sample.particle] += dt * inverseMass(sample.particle) * own;
   }
+  impulses_.resize(solids.size());
+  for (size_t n = 0; n < solids.size(); ++n) {
+    impulses_[n].linear += reactions[n].linear;
+    impulses_[n].angular += reactions[n].angular;
+  }
+  bodies_.accelerate(reactions);
 }
 
 double ReferenceSolver::surfaceEnergy() const {

@@ -25,6 +25,6 @@ void main() {
       float warm = reaction(c, words + kWarmSums);
       solidLoads[n].warm[c] = control.warmStep > 0.0 ? warm / (control.warmStep * control.warmStep) : 0.0;
     }
-    if (advances && ends && !NO_SLIP_SOLIDS) endAdvance(n);  // else what follows in the substep ends it
+    if (advances && ends && !NO_SLIP_SOLIDS && !TENSION) endAdvance(n);  // else what follows in the substep ends it
   }
 }

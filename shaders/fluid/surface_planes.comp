@@ -15,6 +15,7 @@ READ_FLOAT4(2, position)
 layout(std430, binding = 4) readonly buffer SumsBlock { FluidSums sums; };
 READ_UINT4(5, solids)  // SolidRecord
 #include "fluid/solid_array.glsl"
+#include "fluid/surface_solid.glsl"
 layout(std430, binding = 6) writeonly buffer PlaneBlock { vec4 solidPlane[]; };  // xyz: away from the solid, w: distance in m
 
 void main() {
@@ -22,13 +23,5 @@ void main() {
   if (n >= sums.nearSolids) return;
   NearSolids near = nearSolidsOf(n);
   if (near.particle >= control.solved) return;
-  vec3 x = positionAt(near.particle).xyz;
-  vec4 plane = vec4(0.0, 1.0, 0.0, kNoWall);
-  for (uint m = 0u, k; nextSolid(near, m, k); ++m) {
-    SolidRecord s = solidAt(k);
-    vec3 normal;
-    float distance = surfaceDistance(s.shape, localPoint(s.pose, x), normal);
-    if (distance < plane.w) plane = vec4(toScene(s.pose, normal), distance);
-  }
-  solidPlane[near.particle] = plane;
+  solidPlane[near.particle] = surfaceSolidAt(near, positionAt(near.particle).xyz).plane;
 }

@@ -19,7 +19,9 @@ layout(push_constant) uniform Push { ChunkPush push; };
 READ_UINT(8, surfaceParticle)
 layout(std430, binding = 9) buffer ForceBlock { int surfaceForce[]; };
 layout(std430, binding = 10) buffer VelocityBlock { vec4 velocity[]; };
-READ_FLOAT4(11, solidPlane)  // xyz: away from the nearest solid, w: distance in m
+// xyz: away from the nearest solid, w: distance in m. LOADS: then what that solid does to the samples, for surface_reactions.comp: w: the
+// sum of what pushes them toward it, over tensionWall, xyz: that of their offsets, each times what pushes it, m.
+layout(std430, binding = 11) buffer PlaneBlock { vec4 solidPlane[]; };
 
 vec3 here;
 uvec4 coverOfFluids;
@@ -122,8 +124,8 @@ vec4 planeAt(uint n, vec4 solid) {
 Samples distances(vec4 plane) { return along(kTensionRadius * plane.xyz, plane.w / params.spacing); }  // spacings
 bool reaches(vec4 plane) { return plane.w < (kTensionRadius + 1.0) * params.spacing; }
 
-// Weights the samples by how near they are to walls and solids; the force where the weight changes.
-vec3 weigh(inout Samples open, vec4 solid) {
+// Weights the samples by how near they are to walls and solids; the force where the weight changes, and what of it is the solid's.
+vec3 weigh(inout Samples open, vec4 solid, out vec4 bySolid) {
   Samples nearest = ofAll(1.0);
   for (uint n = 0u; n < kPlanes; ++n) {
     vec4 plane = planeAt(n, solid);
@@ -139,6 +141,7 @@ vec3 weigh(inout Samples open, vec4 solid) {
     open.part[k] = (whole * t * t * (3.0 - 2.0 * t) - params.wettingCosine) * free;
   }
   vec3 force = vec3(0.0);
+  bySolid = vec4(0.0);
   for (uint n = 0u; n < kPlanes; ++n) {
     vec4 plane = planeAt(n, solid);
     if (!reaches(plane)) continue;
@@ -147,9 +150,11 @@ vec3 weigh(inout Samples open, vec4 solid) {
     EACH_PART(k) {
       vec4 mine = vec4(equal(by.part[k], nearest.part[k]));
       sum += dot(mine, slope.part[k]);
+      by.part[k] = mine * slope.part[k];
       slope.part[k] *= 1.0 - mine;
     }
     force -= sum * plane.xyz;
+    if (LOADS && n == 6u) bySolid = vec4(sampleRadius * resultant(by), sum);
   }
   return force;
 }
@@ -159,7 +164,9 @@ bool expose(uint i, uint head, uint fluid) {
   EACH_PART(k) samples.part[k] = max(1.0 - kTensionAmplitude * samples.part[k], vec4(0.0));
   if (WALLS || SOLIDS) {
     bool nearSolids = isNearSolids(head);
-    vec3 force = weigh(samples, nearSolids ? solidPlaneAt(i) : vec4(0.0, 1.0, 0.0, kNoWall));
+    vec4 bySolid;
+    vec3 force = weigh(samples, nearSolids ? solidPlane[i] : vec4(0.0, 1.0, 0.0, kNoWall), bySolid);
+    if (LOADS && nearSolids) solidPlane[i] = bySolid;
     velocity[i].xyz += control.step * params.tensionWall * tensionOf(fluid) * inverseMassOf(fluid) * force;
   }
   float sum = 0.0;

@@ -1,5 +1,6 @@
 #version 460
-// Loads on solids, and velocities of bodies, from what the fluid that sticks to them got. One workgroup.
+// Loads on solids, and velocities of bodies, from what forces after the solve gave the fluid beside them: it sticks to them, or its
+// surface has tension. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "shared/pose.glsl"
