@@ -68,6 +68,7 @@ std::vector<Experiment> bubbleExperiments();      ///< bubbles that rise in a th
 std::vector<Experiment> crownExperiments();       ///< fingers of a crown
 std::vector<Experiment> dropExperiments();        ///< surface tension: drops, rise between plates, threads
 std::vector<Experiment> dropMotionExperiments();  ///< surface tension: spin, energy, mode 3 and waves
+std::vector<Experiment> wettingExperiments();     ///< surface tension on plates and bodies
 std::vector<Experiment> obstacleExperiments();    ///< dam breaks over meshes and over the exact shapes
 
 /// Runs a scene and calls `onSample` with the particles at multiples of `frame_s` for which `sampledAt` returns true.

@@ -36,11 +36,11 @@ constexpr Convergence kConvergenceFigures[] = {{"slosh", "period", "Slosh: error
 std::vector<Experiment> experiments() {
   std::vector<Experiment> all;
   for (const auto& family :
-       {columnExperiments(),   tankExperiments(),  sloshExperiments(),   ellipticExperiments(),  freeExperiments(),
-        jetExperiments(),      liftExperiments(),  bodyExperiments(),    slipExperiments(),      waterEntryExperiments(),
-        obstacleExperiments(), tapExperiments(),   channelExperiments(), orificeExperiments(),   weirExperiments(),
-        jumpExperiments(),     lakeExperiments(),  mixtureExperiments(), bubbleExperiments(),    dropExperiments(),
-        oilDropExperiments(),  shearExperiments(), crownExperiments(),   dropMotionExperiments()})
+       {columnExperiments(),   tankExperiments(),  sloshExperiments(),   ellipticExperiments(),   freeExperiments(),
+        jetExperiments(),      liftExperiments(),  bodyExperiments(),    slipExperiments(),       waterEntryExperiments(),
+        obstacleExperiments(), tapExperiments(),   channelExperiments(), orificeExperiments(),    weirExperiments(),
+        jumpExperiments(),     lakeExperiments(),  mixtureExperiments(), bubbleExperiments(),     dropExperiments(),
+        oilDropExperiments(),  shearExperiments(), crownExperiments(),   dropMotionExperiments(), wettingExperiments()})
     all.insert(all.end(), family.begin(), family.end());
   return all;
 }
