@@ -132,7 +132,7 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
        [](const ArrayShape& s) { return s.viscous ? s.particles + 1 : 0; }, Account::Particles},
       {NextConcentration, "nextConcentration", "next concentrations", Section, kVector, concentrations, Account::Particles},
       {Curl, "curl", "curl", Section, kVector, [](const ArrayShape& s) { return s.vorticity ? s.particles + 1 : 0; }, Account::Particles},
-      {SolidPlane, "solidPlane", "planes of solids", Fluid, kVector,
+      {SolidPlane, "solidPlane", "planes of solids, then reactions to tension", Fluid, kVector,
        [](const ArrayShape& s) { return s.tension && s.solids > 0 ? s.particles : 0; }, Account::Particles},
       {SurfaceParticle, "surfaceParticle", "particles near surfaces", Fluid, kWord,
        [](const ArrayShape& s) { return s.tension ? s.particles + kMaxSurfaceChunks : 0; }, Account::Particles},

@@ -25,8 +25,8 @@ bool noSlipLoads(const FluidSetup& s) { return s.noSlipSolids && s.loads; }
 bool noisy(const FluidSetup& s) { return s.params.noiseDampingRate > 0; }
 bool swirls(const FluidSetup& s) { return s.params.vorticity > 0; }
 bool tense(const FluidSetup& s) { return s.params.tensionRate > 0; }
-bool tenseAtSolids(const FluidSetup& s) { return tense(s) && solids(s); }
-bool loadsOfTension(const FluidSetup& s) { return tenseAtSolids(s) && s.loads; }
+bool wetsSolids(const FluidSetup& s) { return tense(s) && solids(s); }
+bool pullsSolids(const FluidSetup& s) { return wetsSolids(s) && s.loads; }
 bool drags(const FluidSetup& s) { return s.params.drag > 0; }
 bool sleeps(const FluidSetup& s) { return s.params.sleeps != 0; }
 bool regions(const FluidSetup& s) { return s.params.regionsX != 0; }
@@ -118,12 +118,12 @@ constexpr std::array<FluidPassRow, kFluidPasses> kPassTable = {{
     {P::Curl, "curl", "fluid/curl", E::Gather, kEnd, kSwirls, kForce},
     {P::Confine, "confine", "fluid/confine", E::Gather, kEnd, kSwirls, kForce},
     {P::Drag, "drag", "fluid/drag", E::Particles, kEnd, kDrags, kForce},
-    {P::SurfacePlanes, "planes of solids", "fluid/surface_planes", E::NearSolids, kEnd, {tenseAtSolids}},
+    {P::SurfacePlanes, "planes of solids", "fluid/surface_planes", E::NearSolids, kEnd, {wetsSolids}},
     {P::SurfaceParticles, "particles at surfaces", "fluid/surface_particles", E::Gather, kEnd, {tense}},
     {P::SurfaceTension, "surface tension", "fluid/surface_tension", E::Gather, kEnd, kTense},
     {P::SurfaceForces, "forces of surfaces", "fluid/surface_forces", E::Particles, kEnd, {tense}},
-    {P::SurfaceReactions, "surface tension on solids", "fluid/surface_reactions", E::NearSolids, kEnd, {loadsOfTension}},
-    {P::SurfaceLoads, "surface loads", "fluid/force_loads", E::One, kEnd, {loadsOfTension}},
+    {P::SurfaceReactions, "surface tension on solids", "fluid/surface_reactions", E::NearSolids, kEnd, {pullsSolids}},
+    {P::SurfaceLoads, "surface loads", "fluid/force_loads", E::One, kEnd, {pullsSolids}},
     {P::PredictAfterForces, "predict after forces", "fluid/predict", E::Particles, kEndOrDamped, {forcesOrDamping}},
     {P::PredictAtSolids, "predict at solids", "fluid/predict", E::NearSolids, kEndOrDamped, {forcesOrDampingAtSolids}},
     {P::KeepMouthsFree, "keep mouths free", "fluid/mouths", E::NearMouths, kEnd, {emits}},

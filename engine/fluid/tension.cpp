@@ -37,22 +37,22 @@ void warnOfRaisedTensions(const Scene& scene, FluidSetup& setup) {
                                roundedNumber(fluids[k].surfaceTension) + " for the tension of its interfaces; it is simulated with that");
 }
 
-/// The body that asks for the shortest step, s: it is so light that what pulls at its surface would swing it.
-struct LightestBody {
+/// The body that asks for the shortest step, s: in longer ones the pull at its surface would make it oscillate.
+struct StiffestBody {
   size_t solid = 0;
   double step = std::numeric_limits<double>::infinity();
 };
-LightestBody lightestBody(const Scene& scene, const FluidSetup& setup, double tension) {
-  constexpr double kStiffness = 3;  // N/m over the tension, of each square spacing around the body
+StiffestBody stiffestBody(const Scene& scene, const FluidSetup& setup, double tension) {
+  constexpr double kStiffness = 3;  // over the tension, for each square spacing of surface
   const double d = scene.fluid.spacing;
-  LightestBody lightest;
+  StiffestBody stiffest;
   for (const BodyRecord& body : setup.bodies) {
     const Double3 half = halfExtents(scene.solids[body.solid].shape);
     const double x = half.x + d / 2, y = half.y + d / 2, z = half.z + d / 2, area = 8 * (x * y + y * z + z * x);
     const double step = d * std::sqrt(double{body.mass} / (kStiffness * tension * area));
-    if (step < lightest.step) lightest = {body.solid, step};
+    if (step < stiffest.step) stiffest = {body.solid, step};
   }
-  return lightest;
+  return stiffest;
 }
 
 }  // namespace
@@ -73,19 +73,21 @@ void addTension(const Scene& scene, FluidSetup& setup) {
   p.tensionWall = f(std::min(rates.wall, kMaxRate));
   p.wettingCosine = f(std::cos(scene.fluid.contact_angle * std::numbers::pi / 180));
   p.deepNeighbors = f(std::floor(kDeepShare * 4 / 3 * std::numbers::pi * std::pow(listReach(scene), 3)));
-  const double step = capillaryStep(largestKinematicTension(scene), 1, d);
-  if (scene.solver.time_step && *scene.solver.time_step > step)
-    setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " + shownTension(scene) +
-                             " allows at this spacing: steps are at most " + roundedNumber(step) + " s");
-  boundStep(step, shownTension(scene), setup);
-  warnOfDropping(shownTension(scene), step, setup);
-  if (const LightestBody light = lightestBody(scene, setup, tension); light.step < step) {
-    constexpr double kShortest = 0.1;  // of the step without bodies: what is lighter is not resolved
-    const double shorter = std::max(light.step, kShortest * step);
-    const std::string why = elementPath("solids", light.solid) + ".body with " + shownTension(scene);
-    boundStep(shorter, why, setup);
-    warnOfDropping(why, shorter, setup);
+  double step = capillaryStep(largestKinematicTension(scene), 1, d);
+  std::string why = shownTension(scene);
+  if (const StiffestBody body = stiffestBody(scene, setup, tension); body.step < step) {
+    constexpr double kShortest = 0.1;  // of the step without bodies
+    why = elementPath("solids", body.solid) + ".body with " + why;
+    step = std::max(body.step, kShortest * step);
+    if (body.step < step)
+      setup.warnings.push_back(why + ": the body is light for its surface: expected steps of at most " + roundedNumber(body.step) +
+                               " s for it, found " + roundedNumber(step) + " s; it may be thrown about");
   }
+  if (scene.solver.time_step && *scene.solver.time_step > step)
+    setup.warnings.push_back("solver.time_step " + roundedNumber(*scene.solver.time_step) + " s is more than " + why +
+                             " allows at this spacing: steps are at most " + roundedNumber(step) + " s");
+  boundStep(step, why, setup);
+  warnOfDropping(why, step, setup);
 }
 
 }  // namespace rill

@@ -134,7 +134,7 @@ class ReferenceSolver {
   void predict(double dt, double dtNext);  ///< w, x*
 
   /// Impulses of the fluid on the solids in the last substep, about their centers; gravity on a solid is not included. They are the
-  /// reaction to what the particle's displacement owes to the solid: its density, collisions, contact, tension.
+  /// reaction to displacements of particles (density, collisions, contact) and to forces (no slip, surface tension).
   std::span<const Impulse> impulses() const { return impulses_; }
   const Bodies& bodies() const { return bodies_; }  ///< the solids that are rigid bodies
 

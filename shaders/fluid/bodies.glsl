@@ -52,6 +52,14 @@ PoseRecord pushed(BodyRecord b, PoseRecord s, vec3 impulse, vec3 moment, float d
   return poseOf(centerOf(s) + by, turned(rotationOf(s), turn), velocityOf(s) + by / dt, angularVelocity(s) + turn / dt);
 }
 
+// No faster than particles may be, for a body whose points are within `radius` (m) of its center of mass: what pushes it may carry it too
+// far if it is much lighter than a particle.
+PoseRecord slowed(PoseRecord s, float radius) {
+  float linear = min(1.0, params.speedLimit / max(length(velocityOf(s)), 1.0e-20));
+  float angular = min(1.0, params.speedLimit / max(radius * length(angularVelocity(s)), 1.0e-20));
+  return poseOf(centerOf(s), rotationOf(s), linear * velocityOf(s), angular * angularVelocity(s));
+}
+
 // The pose of the body's solid, whose center need not be that of mass.
 PoseRecord solidPose(BodyRecord b, PoseRecord s) {
   vec3 toCenter = -rotate(rotationOf(s), vec3(b.offsetX, b.offsetY, b.offsetZ));

@@ -23,10 +23,10 @@ void moveBody(uint n, vec3 impulse, vec3 moment) {
   vec3 w = angularVelocity(s) + inverseInertiaAt(b, rotationOf(s)) * aboutMass(b, s, impulse, moment);
   const float kMaxSpeed = 1.0e15;
   if (!isWithin(v, kMaxSpeed) || !isWithin(w, kMaxSpeed)) return;
-  s = poseOf(centerOf(s), rotationOf(s), v, w);
+  s = slowed(poseOf(centerOf(s), rotationOf(s), v, w), b.radius);
   bodies[n].state = s;
   solids[b.solid].pose = solidPose(b, s);
-  atomicMax(sums.bodySpeed, floatBitsToUint(length(v) + b.radius * length(w)));
+  atomicMax(sums.bodySpeed, floatBitsToUint(length(velocityOf(s)) + b.radius * length(angularVelocity(s))));
 }
 
 void main() {

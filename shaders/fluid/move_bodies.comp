@@ -21,14 +21,12 @@ PoseRecord reacted(BodyRecord b) {
   return pushed(b, b.predicted, impulse, aboutMass(b, b.predicted, impulse, moment), control.step);
 }
 
-// The solve may carry a body that is much lighter than a particle too far: no faster than particles may be, and not through a wall.
+// Not too fast, and not through a wall.
 PoseRecord bounded(PoseRecord s, vec3 from, float radius) {
-  float linear = min(1.0, params.speedLimit / max(length(velocityOf(s)), 1.0e-20));
-  float angular = min(1.0, params.speedLimit / max(radius * length(angularVelocity(s)), 1.0e-20));
   vec3 x = centerOf(s), low = wallsLow(), high = wallsHigh();
   for (int a = 0; a < 3; ++a)
     if (from[a] >= low[a] && from[a] <= high[a]) x[a] = clamp(x[a], low[a], high[a]);
-  return poseOf(x, rotationOf(s), linear * velocityOf(s), angular * angularVelocity(s));
+  return slowed(poseOf(x, rotationOf(s), velocityOf(s), angularVelocity(s)), radius);
 }
 
 bool inRange(PoseRecord s) {

@@ -1,5 +1,5 @@
 #version 460
-// Surface tension, last pass: the forces change velocities, and the list of particles near surfaces is empty again.
+// The forces of surface tension change velocities, and the list of particles near surfaces is empty again.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/fluids.glsl"

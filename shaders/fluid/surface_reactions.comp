@@ -1,6 +1,6 @@
 #version 460
-// Surface tension at solids, last pass: what samples do to the solid nearest to their particle, the opposite of what it does to them. It
-// acts at the samples, so that the torque, too, is the gradient of the energy. By the solids' poses at the end of the substep.
+// The reaction to surface tension on the solid nearest to each particle. It acts at the particle's samples, so that at flat faces the
+// torque, too, is the gradient of the energy. By the solids' poses at the end of the substep.
 #extension GL_GOOGLE_include_directive : require
 #include "fluid/uniforms.glsl"
 #include "fluid/fluids.glsl"
@@ -30,11 +30,11 @@ void main() {
   NearSolids near = nearSolidsOf(n);
   uint i = near.particle;
   if (i >= control.solved) return;
-  vec4 particle = positionAt(i), push = solidPlaneAt(i);
+  vec4 particle = positionAt(i), reaction = solidPlaneAt(i);
   bool asleep = isAsleep(i);
-  if (!isActive(particle.xyz) || asleep || !(push.w > 0.0)) return;
+  if (!isActive(particle.xyz) || asleep || !(reaction.w > 0.0)) return;
   SurfaceSolid solid = surfaceSolidAt(near, particle.xyz);
   if (solid.index == kNoSolid) return;
   float scale = control.step * control.step * params.tensionWall * tensionOf(fluidOfPosition(particle));
-  addToSolid(solid.index, solid.center, -scale * push.w * solid.plane.xyz, particle.xyz + push.xyz / push.w);
+  addToSolid(solid.index, solid.center, -scale * reaction.w * solid.plane.xyz, particle.xyz + reaction.xyz / reaction.w);
 }

@@ -192,6 +192,35 @@ TEST_F(BoundsTest, RejectsStepsTooShortForFloats) {
   EXPECT_TRUE(wide.error().message.starts_with("solver: in 1e+04 m of room this fluid")) << wide.error().message;
 }
 
+// The step of the fluid is for 1,000 kg/m^3 in each cube of a spacing, and a body has less for its surface.
+TEST_F(BoundsTest, LightBodiesShortenStepsUnderTension) {
+  Scene scene;
+  scene.gravity = {};
+  scene.fluid.spacing = 0.01;
+  scene.fluid.surface_tension = 1;
+  const double fluid = setupOf(scene).params.maxStep;
+  scene.solids = {{.shape = BoxShape{{0, 0, 0}, {0.03, 0.03, 0.03}}, .body = Body{.density = 500}}};
+  const std::string light = "solids[0].body with fluid.surface_tension 1 N/m: the body is light for its surface";
+  const FluidSetup heavy = setupOf(scene);
+  EXPECT_EQ(heavy.params.maxStep, float(fluid));
+  EXPECT_EQ(heavy.stepBoundBy, "fluid.surface_tension 1 N/m");
+
+  scene.solids[0].body->density = 50;
+  const FluidSetup shorter = setupOf(scene);
+  EXPECT_LT(shorter.params.maxStep, 0.9 * fluid);
+  EXPECT_GT(shorter.params.maxStep, 0.2 * fluid);
+  EXPECT_EQ(shorter.stepBoundBy, "solids[0].body with fluid.surface_tension 1 N/m");
+  EXPECT_FALSE(warned(shorter, light));
+  scene.solver.time_step = 0.9 * fluid;
+  EXPECT_TRUE(warned(setupOf(scene), "solver.time_step ")) << "longer than the body allows";
+  scene.solver.time_step = {};
+
+  scene.solids[0].body->density = 0.1;
+  const FluidSetup shortest = setupOf(scene);
+  EXPECT_NEAR(shortest.params.maxStep, 0.1 * fluid, 1e-6 * fluid);
+  EXPECT_TRUE(warned(shortest, light));
+}
+
 TEST_F(BoundsTest, NamesTensionThatNeedsTooShortSteps) {
   const StartFigures drops{.capacity = 8000, .extent = {1e5, 0.2, 0.2}};
   Scene scene;

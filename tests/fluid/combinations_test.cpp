@@ -141,6 +141,11 @@ TEST_F(CombinationsTest, ChunksOfListsChangeNoBit) {
     (tension ? t.scene.fluid.surface_tension : t.scene.fluid.yield_stress) = 200;
     t.x = block({24, 20, 17}, t.d(), {}, 0.1);
     t.capacity = 3 * kListBlock + 100;
+    if (tension) {  // which solids feel
+      t.scene.solids = {slab({0.2, -0.5, 0.2}, {1, 0.1, 1}), ball({0.7, 1.5, 0.7}, 0.2)};
+      t.scene.solids[1].body = Body{.density = 500};
+      t.loads = true;
+    }
     t.scene.emitters = {{.mouth = DiscMouth{.center = {0.7, 2, 0.7}, .radius = 0.3, .normal = {0, -1, 0}}, .speed = 30}};
     const auto end = [&](Run& run, size_t chunks) {
       EXPECT_EQ(implOf(run.fluid()).chunks().size(), chunks);

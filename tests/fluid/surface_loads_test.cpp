@@ -32,7 +32,7 @@ Trial among(double contactAngle) {
   const double d = t.d();
   t.scene.solids = {slab({-0.1, -0.2, -0.1}, {0.6, 0.0, 0.6}),
                     turned(slab({-0.3, 0.1, 0.1}, {-0.1, 0.4, 0.3}), {1, 2, 3}, 0.4),
-                    body(turned(slab({0.55, 0.35, 0.55}, {0.8, 0.6, 0.8}), {1, -1, 0}, 0.7), 300),
+                    body(turned(slab({0.48, 0.35, 0.48}, {0.73, 0.6, 0.73}), {1, -1, 0}, 0.7), 300),
                     body(ball({0.25, 0.25, 0.25}, 1.5 * d), 800),
                     {.shape = MeshShape{.mesh = meshOf(ballMesh(0.15, 3))}, .translation = {0.2, 0.55, 0.2}}};
   addOutsideSolids(t, block({8, 8, 8}, d, {0, 0.3 * d, 0}, 0.1));
@@ -41,13 +41,14 @@ Trial among(double contactAngle) {
 
 class SurfaceLoadsTest : public FluidTest {
  protected:
-  /// Impulses on solids and motions of bodies after some substeps, on the device and of the reference.
-  void expectReference(const Trial& t, int substeps, double limit) {
+  /// Impulses on solids and motions of bodies after some substeps, on the device and of the reference. Returns the least impulse over the
+  /// largest.
+  double expectReference(const Trial& t, int substeps, double limit) {
     Oracle oracle(t);
     const auto sums = oracle.advanceWithLoads(substeps);
     double largest = 0;
     for (const auto& sum : sums) largest = std::max(largest, glm::length(sum.linear));
-    ASSERT_GT(largest, 0);
+    EXPECT_GT(largest, 0);
     const double lever = 4 * t.d();
     forEachGather(t, substeps, [&](Run& run) {
       ASSERT_EQ(run.fluid().solidLoads().size(), sums.size());
@@ -63,6 +64,8 @@ class SurfaceLoadsTest : public FluidTest {
         EXPECT_LT(glm::length(vec(m.angularVelocity) - exact.angularVelocity) * t.step * lever, limit * t.d()) << m.solid;
       }
     });
+    const auto size = [](const auto& sum) { return glm::length(sum.linear); };
+    return size(std::ranges::min(sums, {}, size)) / largest;
   }
 
   /// Of the fluid and of the bodies, N s.
@@ -74,7 +77,8 @@ class SurfaceLoadsTest : public FluidTest {
   }
 
   /// Means over the second half of a run that comes to rest, N.
-  std::vector<glm::dvec3> meanForces(Trial t) {
+  /// Mean forces on solids at rest, N. `lowest`: of the particles at the end, m.
+  std::vector<glm::dvec3> meanForces(Trial t, double* lowest = nullptr) {
     t.scene.fluid.drag = 3;
     t.step = 0.02;
     auto run = start(t);
@@ -85,6 +89,7 @@ class SurfaceLoadsTest : public FluidTest {
       run->read({});
       for (size_t k = 0; k < sums.size() && n >= kAdvances; ++k) sums[k] += vec(run->fluid().solidLoads()[k].force) / double{kAdvances};
     }
+    if (lowest) *lowest = std::ranges::min(run->snapshot().x, {}, &glm::dvec3::y).y;
     return sums;
   }
 };
@@ -92,8 +97,8 @@ class SurfaceLoadsTest : public FluidTest {
 TEST_F(SurfaceLoadsTest, MatchReference) {
   for (const double angle : {30.0, 150.0}) {
     SCOPED_TRACE(angle);
-    expectReference(among(angle), 1, 1e-3);
-    expectReference(among(angle), 5, 1e-2);
+    EXPECT_GT(expectReference(among(angle), 1, 1e-3), 1e-2) << "each solid has a load";
+    EXPECT_GT(expectReference(among(angle), 5, 1e-2), 1e-2);
   }
 }
 
@@ -120,8 +125,7 @@ TEST_F(SurfaceLoadsTest, OfFluidThatSticksMatchReference) {
   expectReference(t, 3, 1e-2);
 }
 
-// Two solids at one place, one on the axis of symmetry of two, coincident particles, one inside a body, one that has more than enough
-// speed.
+// Two solids at one place, particles halfway between two balls, one alone on a ball.
 TEST_F(SurfaceLoadsTest, DegenerateInputMatchesReference) {
   Trial t = tense(30);
   const double d = t.d();
@@ -130,6 +134,15 @@ TEST_F(SurfaceLoadsTest, DegenerateInputMatchesReference) {
   t.x = block({1, 4, 3}, d, {-0.5 * d, 0, -1.5 * d});  // halfway between the balls
   t.x.push_back({-3 * d, 4.6 * d, 0});                 // alone
   expectReference(t, 1, 1e-3);
+}
+
+// Coincident particles, one inside a body, one that has more than enough speed.
+TEST_F(SurfaceLoadsTest, DegenerateInputStaysFinite) {
+  Trial t = tense(30);
+  const double d = t.d();
+  t.scene.solids = {slab({-0.3, -0.2, -0.3}, {0.3, -0.05, 0.3}), body(ball({-3 * d, 2 * d, 0}, 2 * d), 500),
+                    body(ball({3 * d, 2 * d, 0}, 2 * d), 0.01)};
+  t.x = block({1, 4, 3}, d, {-0.5 * d, 0, -1.5 * d});
   t.x.push_back({-3 * d, 2.1 * d, 0.1 * d});
   t.x.push_back(t.x[5]);
   t.x.push_back({3 * d, 4.6 * d, 0});
@@ -138,7 +151,8 @@ TEST_F(SurfaceLoadsTest, DegenerateInputMatchesReference) {
   auto run = start(t);
   run->substeps(20);
   EXPECT_TRUE(run->snapshot().finite());
-  for (const BodyMotion& m : run->fluid().bodies()) EXPECT_TRUE(std::isfinite(glm::length(vec(m.velocity)))) << m.solid;
+  const double limit = makeFluidSetup(t.scene, {.capacity = t.capacity})->params.speedLimit;
+  for (const BodyMotion& m : run->fluid().bodies()) EXPECT_LE(glm::length(vec(m.velocity)), 1.001 * limit) << m.solid;
   for (const SolidLoad& load : run->fluid().solidLoads()) EXPECT_TRUE(std::isfinite(glm::length(vec(load.impulse))));
 }
 
@@ -180,7 +194,7 @@ TEST_F(SurfaceLoadsTest, DropAndBodyConserveMomentum) {
         off = std::max(off, glm::length(fluid + bodies));
       }
       ASSERT_GT(largest, 0.1) << "N s";
-      EXPECT_LT(off, 3e-4 * largest) << "of rounding: 1e-4 N s after 150 substeps, whatever moves";
+      EXPECT_LT(off, 3e-4 * std::max(largest, 1.0)) << "N s: rounding makes 1e-4 in 150 substeps";
     }
 }
 
@@ -192,13 +206,15 @@ TEST_F(SurfaceLoadsTest, DropAtRestPullsAPlateAsItPushes) {
     const double d = t.d();
     t.scene.solids = {slab(d * glm::dvec3(-12, -4, -12), d * glm::dvec3(12, 0, 12))};
     t.x = block({7, 4, 7}, d, d * glm::dvec3(-3.5, 0, -3.5));
-    const glm::dvec3 load = meanForces(t)[0];
+    double lowest = 0;
+    const glm::dvec3 load = meanForces(t, &lowest)[0];
     const double rim = 2 * std::numbers::pi * 4 * d * 20 * std::sin(angle * std::numbers::pi / 180);
     EXPECT_LT(glm::length(load), 0.02 * rim);
+    EXPECT_LT(lowest, d) << "m: the drop is on the plate";
   }
 }
 
-// It is a cylinder of radius a: its pressure pushes the plates by pi a sigma, its rim pulls each by 2 pi a sigma.
+// A cylinder of liquid of radius a: its pressure pushes the plates by pi a sigma, its rim pulls each by 2 pi a sigma.
 TEST_F(SurfaceLoadsTest, BridgePullsPlatesTogether) {
   Trial t = tense(90);
   const double d = t.d();
@@ -207,7 +223,7 @@ TEST_F(SurfaceLoadsTest, BridgePullsPlatesTogether) {
   t.x = block({7, 6, 7}, d, d * glm::dvec3(-3.5, 0, -3.5));
   const std::vector<glm::dvec3> loads = meanForces(t);
   const double pull = std::numbers::pi * std::sqrt(49 / std::numbers::pi) * d * 20;
-  EXPECT_NEAR(loads[0].y, 1.19 * pull, 0.06 * pull) << "a cylinder of 4 spacings";
+  EXPECT_NEAR(loads[0].y, 1.19 * pull, 0.06 * pull) << "1.19 was measured at this resolution: docs/notes/surface-tension.md";
   EXPECT_NEAR(loads[0].y + loads[1].y, 0, 0.02 * pull);
 }
 

@@ -85,7 +85,7 @@ constexpr Band kBands[] = {
     {"towed-plate", "force", 0.02, {0.02, 0.02, 0.02}, "%", ""},
     {"towed-plate", "profile, worst particle", kNoAim, {0.05, 0.05, 0.05}, "", ""},
     {"falling-ball", "terminal velocity", 0.05, {0.2, 0.12, 0.12}, "%", "fluid gives way to the ball after the solve of viscosity"},
-    // Measured at the coarse level; the others are checked once they are.
+    // drop-and-body, drop-on-plate: measured at the coarse level alone
     {"bingham-plates", "mean speed", 0.05, {0.05, 0.08, kNotChecked}, "%", kLag},
     {"bingham-plates", "speed in the middle", 0.05, {0.09, 0.12, kNotChecked}, "%", kLag},
     {"bingham-plates", "profile, worst layer", kNoAim, {0.1, 0.15, kNotChecked}, "", ""},

@@ -89,7 +89,7 @@ Expected<Outcome> dropOnPlate(const Bench& bench, double spacing, double angle) 
 Expected<Outcome> bridge(const Bench& bench, double spacing) {
   constexpr double kGap = kWetRadius, kWide = 3 * kWetRadius;
   Scene scene = wetScene(spacing, 90);
-  constexpr double kSide = 1.7724538509055159 * kWetRadius / 2;  // of a square as large as the circle
+  constexpr double kSide = kWetRadius / (2 * std::numbers::inv_sqrtpi);  // half of a square's with the area of the circle
   scene.fill.push_back(boxFill({-kSide, 0, -kSide}, {kSide, kGap, kSide}));
   scene.solids.push_back({.shape = BoxShape{{-kWide, -4 * spacing, -kWide}, {kWide, 0, kWide}}, .name = "lower"});
   scene.solids.push_back({.shape = BoxShape{{-kWide, kGap, -kWide}, {kWide, kGap + 4 * spacing, kWide}}, .name = "upper"});
