@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <span>
 
-#include "fluid/rig.hpp"
+#include "fluid/force_loads_fixture.hpp"
 #include "shape/mass.hpp"
 #include "support/meshes.hpp"
 
@@ -64,31 +64,7 @@ Trial stream() {
   return t;
 }
 
-class NoSlipTest : public FluidTest {
- protected:
-  /// Impulses on solids since the start, and motions of bodies, on the device and of the reference.
-  void expectReferenceMotion(const Trial& t, int substeps, double limit) {
-    Oracle oracle(t);
-    const auto sums = oracle.advanceWithLoads(substeps);
-    double largest = 0;
-    for (const auto& sum : sums) largest = std::max(largest, glm::length(sum.linear));
-    ASSERT_GT(largest, 0);
-    forEachGather(t, substeps, [&](Run& run) {
-      ASSERT_EQ(run.fluid().solidLoads().size(), sums.size());
-      for (size_t k = 0; k < sums.size(); ++k) {
-        const SolidLoad& load = run.fluid().solidLoads()[k];
-        EXPECT_LT(glm::length(vec(load.impulse) - sums[k].linear), limit * largest) << k;
-        EXPECT_LT(glm::length(vec(load.angularImpulse) - sums[k].angular), limit * 0.2 * largest) << k;
-        for (int a = 0; a < 3; ++a) EXPECT_NEAR(load.force[a] * substeps * t.step, load.impulse[a], 1e-5 * largest) << "one advance";
-      }
-      for (const BodyMotion& m : run.fluid().bodies()) {
-        const reference::BodyMotion& exact = oracle.solver().bodies().motion(m.solid);
-        EXPECT_LT(glm::length(vec(m.velocity) - exact.velocity) * t.step, limit * t.d()) << m.solid;
-        EXPECT_LT(glm::length(vec(m.angularVelocity) - exact.angularVelocity) * 0.2 * t.step, limit * t.d()) << m.solid;
-      }
-    });
-  }
-};
+using NoSlipTest = ForceLoadsTest;
 
 TEST_F(NoSlipTest, WallsMatchReference) {
   expectEqual(noisy(20), 1, 1e-4, 1e-4);

@@ -5,21 +5,15 @@ namespace rill::test {
 namespace substep_test {
 
 TEST_F(SubstepTest, OneStepOfViscosityMatchesReference) {
-  Trial t = trial();
+  Trial t = agitated(1.0);
   t.scene.fluid.viscosity = 20;
-  setWalls(t, {1, 1, 1});
-  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
 
 TEST_F(SubstepTest, SeveralStepsOfViscosityMatchReference) {
-  Trial t = trial();
+  Trial t = agitated(1.0);
   t.scene.fluid.viscosity = 2500;
-  setWalls(t, {1, 1, 1});
-  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   const ParticleSet particles = t.particles();
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen);
@@ -27,14 +21,11 @@ TEST_F(SubstepTest, SeveralStepsOfViscosityMatchReference) {
 
 // Gains and damping between those of a fluid at rest and of one that is rough.
 Trial calmed() {
-  Trial t = trial();
+  Trial t = agitated(0.3);
   t.scene.solver.relaxation.reset();
   t.scene.solver.warm_start.reset();
   t.scene.solver.artificial_viscosity = 0.3;
   t.stepwise = true;
-  setWalls(t, {1, 1, 1});
-  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = randomCloud(t.x.size(), 0.6, 5, glm::dvec3(-0.3));
   return t;
 }
 
@@ -109,11 +100,8 @@ TEST_F(SubstepTest, ArtificialViscosityDampsNoise) {
 }
 
 TEST_F(SubstepTest, VorticityMatchesReference) {
-  Trial t = trial();
+  Trial t = agitated(1.0);
   t.scene.fluid.vorticity = 0.5;
-  setWalls(t, {1, 1, 1});
-  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }
@@ -128,12 +116,9 @@ TEST_F(SubstepTest, ViscosityAndVorticityMatchReference) {
 }
 
 TEST_F(SubstepTest, DragMatchesReference) {
-  Trial t = trial();
+  Trial t = agitated(1.0);
   t.scene.fluid.drag = 30;
-  setWalls(t, {1, 1, 1});
   t.scene.solids = {ball({0.5, 0.6, 0.5}, 0.1)};
-  t.x = block({6, 7, 6}, t.d(), {}, 0.1);
-  t.v = randomCloud(t.x.size(), 2.0, 5, glm::dvec3(-1.0));
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }

@@ -28,10 +28,7 @@ TEST_F(SubstepTest, CompressedLatticeMatchesReference) {
 }
 
 TEST_F(SubstepTest, JitteredBlockInACornerMatchesReference) {
-  Trial t = trial();
-  setWalls(t, {1, 1, 1});
-  t.x = block({6, 7, 6}, t.d(), {}, 0.2);
-  t.v = randomCloud(t.x.size(), 0.4, 5, glm::dvec3(-0.2));
+  const Trial t = agitated(0.2, 0.2);
   expectEqual(t, 1, kOne, kOne);
   expectEqual(t, 10, kTen, kTen, kAgeing);
 }

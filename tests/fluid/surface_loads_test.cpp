@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fluid/bodies_fixture.hpp"
+#include "fluid/force_loads_fixture.hpp"
 
 namespace rill::test {
 namespace surface_loads_test {
@@ -39,35 +40,8 @@ Trial among(double contactAngle) {
   return t;
 }
 
-class SurfaceLoadsTest : public FluidTest {
+class SurfaceLoadsTest : public ForceLoadsTest {
  protected:
-  /// Impulses on solids and motions of bodies after some substeps, on the device and of the reference. Returns the least impulse over the
-  /// largest.
-  double expectReference(const Trial& t, int substeps, double limit) {
-    Oracle oracle(t);
-    const auto sums = oracle.advanceWithLoads(substeps);
-    double largest = 0;
-    for (const auto& sum : sums) largest = std::max(largest, glm::length(sum.linear));
-    EXPECT_GT(largest, 0);
-    const double lever = 4 * t.d();
-    forEachGather(t, substeps, [&](Run& run) {
-      ASSERT_EQ(run.fluid().solidLoads().size(), sums.size());
-      for (size_t k = 0; k < sums.size(); ++k) {
-        const SolidLoad& load = run.fluid().solidLoads()[k];
-        EXPECT_LT(glm::length(vec(load.impulse) - sums[k].linear), limit * largest) << k;
-        EXPECT_LT(glm::length(vec(load.angularImpulse) - sums[k].angular), limit * lever * largest) << k;
-        for (int a = 0; a < 3; ++a) EXPECT_NEAR(load.force[a] * substeps * t.step, load.impulse[a], 1e-5 * largest) << "one advance";
-      }
-      for (const BodyMotion& m : run.fluid().bodies()) {
-        const reference::BodyMotion& exact = oracle.solver().bodies().motion(m.solid);
-        EXPECT_LT(glm::length(vec(m.velocity) - exact.velocity) * t.step, limit * t.d()) << m.solid;
-        EXPECT_LT(glm::length(vec(m.angularVelocity) - exact.angularVelocity) * t.step * lever, limit * t.d()) << m.solid;
-      }
-    });
-    const auto size = [](const auto& sum) { return glm::length(sum.linear); };
-    return size(std::ranges::min(sums, {}, size)) / largest;
-  }
-
   /// Of the fluid and of the bodies, N s.
   std::pair<glm::dvec3, glm::dvec3> momenta(Run& run, const Trial& t) {
     const glm::dvec3 fluid = Oracle(t).solver().mass() * run.snapshot().velocitySum();
@@ -97,8 +71,8 @@ class SurfaceLoadsTest : public FluidTest {
 TEST_F(SurfaceLoadsTest, MatchReference) {
   for (const double angle : {30.0, 150.0}) {
     SCOPED_TRACE(angle);
-    EXPECT_GT(expectReference(among(angle), 1, 1e-3), 1e-2) << "each solid has a load";
-    EXPECT_GT(expectReference(among(angle), 5, 1e-2), 1e-2);
+    EXPECT_GT(expectReferenceMotion(among(angle), 1, 1e-3), 1e-2) << "each solid has a load";
+    EXPECT_GT(expectReferenceMotion(among(angle), 5, 1e-2), 1e-2);
   }
 }
 
@@ -107,14 +81,14 @@ TEST_F(SurfaceLoadsTest, AtWallsMatchReference) {
   Trial t = among(60);
   setWalls(t, {1, 1, 1});
   t.scene.solids[0].translation = {0, -0.02, 0};
-  expectReference(t, 3, 5e-3);
+  expectReferenceMotion(t, 3, 5e-3);
 }
 
 TEST_F(SurfaceLoadsTest, OfSeveralFluidsMatchReference) {
   Trial t = among(30);
   t.scene.fluids = {{.name = "water", .surface_tension = 10}, {.name = "oil", .density = 500}, {.name = "none", .surface_tension = 0}};
   for (size_t i = 0; i < t.x.size(); ++i) t.fluids.push_back(static_cast<uint8_t>(i * 7919 % 3));
-  expectReference(t, 3, 5e-3);
+  expectReferenceMotion(t, 3, 5e-3);
 }
 
 // Viscous fluid that sticks to them, too: what sums up for both.
@@ -122,7 +96,7 @@ TEST_F(SurfaceLoadsTest, OfFluidThatSticksMatchReference) {
   Trial t = among(30);
   t.scene.fluid.viscosity = 20;
   for (Solid& solid : t.scene.solids) solid.slip = false;
-  expectReference(t, 3, 1e-2);
+  expectReferenceMotion(t, 3, 1e-2);
 }
 
 // Two solids at one place, particles halfway between two balls, one alone on a ball.
@@ -133,7 +107,7 @@ TEST_F(SurfaceLoadsTest, DegenerateInputMatchesReference) {
                     body(ball({-3 * d, 2 * d, 0}, 2 * d), 500), body(ball({3 * d, 2 * d, 0}, 2 * d), 500)};
   t.x = block({1, 4, 3}, d, {-0.5 * d, 0, -1.5 * d});  // halfway between the balls
   t.x.push_back({-3 * d, 4.6 * d, 0});                 // alone
-  expectReference(t, 1, 1e-3);
+  expectReferenceMotion(t, 1, 1e-3);
 }
 
 // Coincident particles, one inside a body, one that has more than enough speed.
