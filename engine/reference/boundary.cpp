@@ -223,10 +223,9 @@ glm::dvec3 ReferenceSolver::contact(size_t i, glm::dvec3 v, double dt, std::span
     glm::dvec3 tangential = relative - normal * n;
     if (before < 0 && restitution > 0 && normal < -restitution * before)
       normal += bodies_.share(k, x, n) * (-restitution * before - normal);
-    glm::dvec3 pressure(0);
-    for (const Pair& pair : pairs(i))
-      pressure += inverseMass(i) * (lambda_[i] + lambda_[pair.j]) / dt * (pairScale(i, pair) * pair.gradient);
-    const double impulse = std::max(0.0, normal - before - glm::dot(pressure, n));
+    glm::dvec3 pressure = lambda_[i] * (ownGradient(i) - vec(boundary_[i].gradient));
+    for (const Pair& pair : pairs(i)) pressure += (lambda_[i] + lambda_[pair.j]) * (pairScale(i, pair) * pair.gradient);
+    const double impulse = std::max(0.0, normal - before - inverseMass(i) / dt * glm::dot(pressure, n));
     const double slip = glm::length(tangential);
     if (slip > 0) tangential *= 1 - bodies_.share(k, x, tangential / slip) * std::min(1.0, friction * impulse / slip);
     const glm::dvec3 after = solid + normal * n + tangential;

@@ -6,11 +6,19 @@
 
 #include "reference/solver.hpp"
 #include "shared/body_records.h"
+#include "sph/background_pressure.hpp"
 
 namespace rill::reference {
 
 double ReferenceSolver::artificialPressureTerm(double value, double push) const {
   return push == 0 ? 0 : -push / kernel_.restGradientSum() * artificial_.factor(value);
+}
+
+glm::dvec3 ReferenceSolver::ownGradient(size_t i) const {
+  const glm::dvec3 displaced = vec(boundary_[i].gradient);
+  glm::dvec3 sum = displaced;
+  for (const Pair& pair : pairs(i)) sum += pair.gradient;
+  return displaced - backgroundShare_[i] * backgroundFactor(glm::length(sum) * settings.spacing) * sum;
 }
 
 void ReferenceSolver::correction(double dt, double push) {
@@ -30,7 +38,7 @@ void ReferenceSolver::correction(double dt, double push) {
       apart += kCoincidentDistance * kernel_.h() * pair.apart;
     }
     addReactions(i, lambdaChange_[i], solids, later);
-    const glm::dvec3 moved = state.predicted[i] + inverseMass(i) * (sum + lambdaChange_[i] * vec(boundary_[i].gradient)) + apart;
+    const glm::dvec3 moved = state.predicted[i] + inverseMass(i) * (sum + lambdaChange_[i] * ownGradient(i)) + apart;
     gain_[i] = glm::dvec3(0);
     if (finite(moved)) {
       wallPosition_[i] = collide(moved, {});

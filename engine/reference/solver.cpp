@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "shared/fluid_records.h"
+#include "sph/background_pressure.hpp"
 #include "sph/liquid_scale.hpp"
 
 namespace rill::reference {
@@ -39,6 +40,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   rejected_.assign(count, glm::dvec3(0));
   rejectedBefore_ = rejected_;
   gaveWay_.assign(count, false);
+  backgroundShare_.assign(count, 0);
   planned_ = gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) addSpeed(glm::length(v));
@@ -111,6 +113,8 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   rejected_.assign(size(), glm::dvec3(0));
   rejectedBefore_ = rejected_;
   blockTime_ += dt;
+  for (size_t i = 0; i < size(); ++i)
+    backgroundShare_[i] = backgroundShare(glm::length(state.velocity[i]), glm::length(settings.gravity), settings.spacing);
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     firstIteration_ = iteration == 0;
@@ -202,7 +206,7 @@ void ReferenceSolver::predictPositions(double dt, bool atRest) {
   const AddReaction add = addTo(warmImpulses_, densityPoses_, 1 / dt), pushed = addTo(warmImpulses_, solids, 1 / dt);
   for (size_t i = 0; i < size(); ++i) {
     const glm::dvec3 v = atRest ? glm::dvec3(0) : state.velocity[i];
-    glm::dvec3 push = state.warm[i] * vec(boundary_[i].gradient);
+    glm::dvec3 push = state.warm[i] * ownGradient(i);
     for (const Pair& pair : pairs(i)) push += (state.warm[i] + state.warm[pair.j]) * (pairScale(i, pair) * pair.gradient);
     addReactions(i, state.warm[i], densityPoses_, add);
     const glm::dvec3 x = state.position[i] + dt * (v + dt * settings.gravity) + inverseMass(i) * push;

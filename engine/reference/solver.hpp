@@ -154,6 +154,7 @@ class ReferenceSolver {
 
   /// Neighbors of particle i, then images.
   std::span<const Pair> pairs(size_t i) const { return std::span(pairs_).subspan(first_[i], first_[i + 1] - first_[i]); }
+  glm::dvec3 ownGradient(size_t i) const;  ///< beside its pairs, what a particle's displacement is of its multiplier, 1/m
   std::span<const Pair> neighbors(size_t i) const { return pairs(i).first(neighborCount_[i]); }
   std::span<const double> densityRatio() const { return densityRatio_; }  ///< rho/rho0
   std::span<const double> lambda() const { return lambda_; }              ///< m^2, <= 0
@@ -283,6 +284,7 @@ class ReferenceSolver {
   double squares_ = 0;                    ///< sum of the squares of speeds, m^2/s^2, likewise
   std::vector<glm::dvec3> wallPosition_;  ///< m, position after the last correction and the walls, before solids
   std::vector<glm::dvec3> planned_;       ///< m, displacement of the prediction before walls and solids
+  std::vector<double> backgroundShare_;   ///< of its own pressure that a particle does not feel: see sph/background_pressure.hpp
   std::vector<glm::dvec3> gain_;          ///< m, displacement by the last correction and the walls
 };
 

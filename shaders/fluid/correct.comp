@@ -11,6 +11,7 @@
 #define PARTICLE uvec4
 #include "fluid/arrays.glsl"
 #include "fluid/artificial_pressure.glsl"
+#include "fluid/background_pressure.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
@@ -39,6 +40,7 @@ uint fluid;
 float inverseMass;
 vec3 correction = vec3(0.0);        // m, once scaled
 vec3 warmDisplacement = vec3(0.0);  // m, once scaled
+vec3 gradients = vec3(0.0);         // 1/m, once scaled
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 float pressure = control.artificialPressure * kMultiplierScale;
@@ -50,10 +52,12 @@ void visit(uvec4 particle) {
   vec2 both = own + unpackHalf2x16(particle.w);
   if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOfWork(particle)));
   correction += both.x * gradient;
+  gradients += gradient;
   if (WARM) warmDisplacement += both.y * gradient;
 }
 void reflectSums(vec3 signs) {
   correction *= signs;
+  gradients *= signs;
   warmDisplacement *= signs;
 }
 #define IMAGES
@@ -73,13 +77,10 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
 
 // The sums over neighbors in meters, and what mouths add; near solids what pairs.comp has summed up.
 void endSums(uint i, uint head) {
-  correction *= unit * params.gradientScale;
-  warmDisplacement *= unit * params.gradientScale;
-  if (MOUTHS) {
-    vec3 displaced = unit * displacedAt(i, head).xyz;
-    correction += own.x * displaced;
-    warmDisplacement += own.y * displaced;
-  }
+  vec3 displaced = MOUTHS ? displacedAt(i, head).xyz : vec3(0.0);
+  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, velocity[i].xyz);
+  correction = unit * (params.gradientScale * correction + own.x * ownGradient);
+  warmDisplacement = unit * (params.gradientScale * warmDisplacement + own.y * ownGradient);
   if (!isNearSolids(head)) return;
   correction = nearCorrectionAt(2u * i).xyz;
   warmDisplacement = nearCorrectionAt(2u * i + 1u).xyz;

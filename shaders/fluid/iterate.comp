@@ -7,6 +7,7 @@
 #include "fluid/uniforms.glsl"
 #define PARTICLE uvec4
 #include "fluid/arrays.glsl"
+#include "fluid/background_pressure.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
@@ -18,18 +19,25 @@ layout(std430, binding = 8) buffer PredictionBlock { vec4 prediction[]; };
 READ_NEAR_DISPLACED(9)
 READ_FLOAT4(10, nearCorrection)  // of pairs.comp
 layout(std430, binding = 11) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };  // as in correct.comp
+layout(std430, binding = 12) readonly buffer VelocityBlock { vec4 velocity[]; };
 
 vec3 here;
 float own;
-vec3 moved = vec3(0.0);
+vec3 moved = vec3(0.0);      // m, once scaled
+vec3 gradients = vec3(0.0);  // 1/m, once scaled
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
 
 void visit(uvec4 particle) {
   vec3 r = here - uintBitsToFloat(particle.xyz);
-  moved += (own + unpackHalf2x16(particle.w).x) * gradientShape(sqrt(dot(r, r))) * r;
+  vec3 gradient = gradientShape(sqrt(dot(r, r))) * r;
+  moved += (own + unpackHalf2x16(particle.w).x) * gradient;
+  gradients += gradient;
 }
-void reflectSums(vec3 signs) { moved *= signs; }
+void reflectSums(vec3 signs) {
+  moved *= signs;
+  gradients *= signs;
+}
 #define IMAGES
 #include "fluid/neighbors.glsl"
 
@@ -46,8 +54,9 @@ void main() {
   bool nearSolids = isNearSolids(head), visits = moves && !nearSolids;
   visitNeighbors(i, visits ? head : 0u, local, visits);
   if (!moves) return;
-  moved *= unit * params.gradientScale;
-  if (MOUTHS) moved += unit * own * displacedAt(i, head).xyz;
+  vec3 displaced = MOUTHS ? displacedAt(i, head).xyz : vec3(0.0);
+  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, velocity[i].xyz);
+  moved = unit * (params.gradientScale * moved + own * ownGradient);
   if (nearSolids) {
     moved = nearCorrectionAt(2u * i).xyz;
     if (LOADS) nearMultipliers[i] = vec2(unit * own, 0.0);

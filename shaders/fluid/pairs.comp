@@ -9,6 +9,7 @@
 #define PARTICLE uvec4
 #include "fluid/arrays.glsl"
 #include "fluid/artificial_pressure.glsl"
+#include "fluid/background_pressure.glsl"
 #include "fluid/cluster.glsl"
 #include "fluid/fluids.glsl"
 #include "fluid/kernel.glsl"
@@ -20,11 +21,13 @@ READ_NEAR_TANGENTIAL(8)
 READ_UINT4(9, nearSolids)
 READ_NEAR_DISPLACED(10)
 layout(std430, binding = 11) writeonly buffer CorrectionBlock { vec4 nearCorrection[]; };  // m, two of each particle, of a mass of 1
+layout(std430, binding = 12) readonly buffer VelocityBlock { vec4 velocity[]; };
 
 vec3 here;
 vec2 own;  // multiplier change, warm start; in the unit
 float inverseMass;
 vec3 correction = vec3(0.0), warmDisplacement = vec3(0.0);  // m, once scaled
+vec3 gradients = vec3(0.0);                                  // 1/m, once scaled
 vec3 excess = vec3(0.0), warmExcess = vec3(0.0);            // of these, what the scales of neighbors add
 
 float unit = params.inverseRestGradient / kMultiplierScale;  // m^2, of the multipliers
@@ -39,6 +42,7 @@ void visit(uvec4 particle, vec4 tangential) {
   vec2 both = own + unpackHalf2x16(particle.w);
   if (ARTIFICIAL_PRESSURE) both.x -= artificialPressure(distance) * pressure / max(inverseMass, inverseMassOf(fluidOfWork(particle)));
   correction += both.x * gradient;
+  gradients += gradient;
   excess += both.x * more;
   if (!WARM) return;
   warmDisplacement += both.y * gradient;
@@ -46,6 +50,7 @@ void visit(uvec4 particle, vec4 tangential) {
 }
 void reflectSums(vec3 signs) {
   correction *= signs;
+  gradients *= signs;
   warmDisplacement *= signs;
   excess *= signs;
   warmExcess *= signs;
@@ -70,9 +75,10 @@ void main() {
   correction *= toMeters;
   warmDisplacement *= toMeters;
   SolidScale scale = solidScaleAt(i, head);
-  vec3 displaced = unit * displacedAt(i, head).xyz;
-  correction += scaledExcess(scale, correction) + toMeters * excess + own.x * displaced;
-  warmDisplacement += scaledExcess(scale, warmDisplacement) + toMeters * warmExcess + own.y * displaced;
+  vec3 displaced = displacedAt(i, head).xyz;
+  vec3 ownGradient = unit * (displaced - backgroundGradient(params.gradientScale * gradients + displaced, velocity[i].xyz));
+  correction += scaledExcess(scale, correction) + toMeters * excess + own.x * ownGradient;
+  warmDisplacement += scaledExcess(scale, warmDisplacement) + toMeters * warmExcess + own.y * ownGradient;
   nearCorrection[2u * i] = vec4(correction, 0.0);
   nearCorrection[2u * i + 1u] = vec4(warmDisplacement, 0.0);
 }

@@ -90,7 +90,7 @@ class RegionsTest : public FluidTest {
     wake(state);
     state.regions.clear();
     auto never = start(t, &state);
-    for (int k = 0; k < 28 && (k < 8 || sleeping(*sleeps) < sleeps->fluid().count() / 2); ++k) {
+    for (int k = 0; k < 40 && (k < 8 || sleeping(*sleeps) < sleeps->fluid().count() / 2); ++k) {
       frames(*sleeps, 0.5);
       frames(*never, 0.5);
     }

@@ -90,7 +90,7 @@ TEST_F(RegionsTest, MatchesRunWithoutSleep) { expectEndWithoutSleep(channel(), p
 
 // Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own: of eight layers, some.
 TEST_F(RegionsTest, TapWakesItsOwnEndOfAFluidThatSlept) {
-  const Trial t = channel(8);
+  const Trial t = channel(10);
   auto run = start(t);
   frames(*run, kOpens);
   EXPECT_EQ(sleeping(*run), t.x.size());

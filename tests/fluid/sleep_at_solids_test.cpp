@@ -44,7 +44,7 @@ TEST_F(SleepAtSolidsTest, FallsAsleepAroundSunkenBody) {
 TEST_F(SleepAtSolidsTest, FallsAsleepAroundFloatingCrate) {
   Solid crate = slab({0.1, 0.08, 0.1}, {0.18, 0.16, 0.18});
   crate.body = Body{.density = 500};
-  expectSleepWithin(15, tankAround(crate, 6));
+  expectSleepWithin(30, tankAround(crate, 6));
 }
 
 }  // namespace sleep_at_solids_test

@@ -32,7 +32,8 @@ class WorkMeter {
     dt_ = dt;
     before_ = solver_.state.velocity;
     for (size_t i = 0; i < solver_.size(); ++i) {
-      pressure_[i] = artificial_[i] = glm::dvec3(0);
+      artificial_[i] = glm::dvec3(0);
+      pressure_[i] = solver_.state.warm[i] / dt_ * solver_.ownGradient(i);
       for (const auto& pair : solver_.pairs(i)) pressure_[i] += (solver_.state.warm[i] + solver_.state.warm[pair.j]) / dt_ * pair.gradient;
     }
   }
@@ -50,11 +51,13 @@ class WorkMeter {
  private:
   void addCorrection() {
     const auto change = solver_.lambdaChange();
-    for (size_t i = 0; i < solver_.size(); ++i)
+    for (size_t i = 0; i < solver_.size(); ++i) {
+      pressure_[i] += change[i] / dt_ * solver_.ownGradient(i);
       for (const auto& pair : solver_.pairs(i)) {
         pressure_[i] += (change[i] + change[pair.j]) / dt_ * pair.gradient;
         artificial_[i] += solver_.artificialPressureTerm(pair.value, solver_.artificialPressurePush()) / dt_ * pair.gradient;
       }
+    }
   }
 
   // The rest is of walls; limits of speed are not reached in waves.

@@ -1,0 +1,20 @@
+#include "sph/background_pressure.hpp"
+
+#include <algorithm>
+
+#include "shared/background_pressure.h"
+
+namespace rill {
+
+double backgroundShare(double speed, double gravity, double spacing) {
+  if (gravity == 0) return 0;
+  const double slow = double{kBackgroundSpeed} * kBackgroundSpeed * gravity * spacing;
+  return kBackgroundShare * speed * speed / (speed * speed + slow);
+}
+
+double backgroundFactor(double unevenness) {
+  const double t = std::clamp((unevenness - kEvenSupport) / (kUnevenSupport - kEvenSupport), 0.0, 1.0);
+  return 1 - t * t * (3 - 2 * t);
+}
+
+}  // namespace rill

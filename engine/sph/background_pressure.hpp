@@ -1,0 +1,23 @@
+#pragma once
+
+namespace rill {
+
+/// What of its own pressure a particle does not feel.
+///
+/// The pressure force of a particle i is the sum over its neighbors of (p_i + p_j) grad K. Its part p_i G, G = sum_j grad K, is zero
+/// where neighbors are spread evenly, and noise in a flow, where they are not: noise that grows with depth, by which layers that slide
+/// along each other rub. Differences of pressures, (p_j - p_i) grad K, have no such part (Sun, Colagrossi, Marrone, Antuono and Zhang
+/// 2018, Computer Physics Communications 224, who use them away from the surface), but nothing then keeps neighbors spread evenly.
+/// So a particle that moves is left without a share of p_i G, and gets all of the force where G is large: at the surface, and where the
+/// neighbors have become uneven. See docs/notes/background-pressure.md.
+///
+/// Returns the share of p_i G for a particle at `speed` (m/s) under `gravity` (m/s^2): 2 would be differences alone. None without gravity,
+/// where no pressure lasts, and momentum, which this does not conserve, may have to close; and less for fluid at rest, whose noise the
+/// whole force damps. `spacing` in m.
+double backgroundShare(double speed, double gravity, double spacing);
+
+/// The factor 0 .. 1 of that for a particle. `unevenness`: |G| d, with a K whose sum is 1 in fluid at rest and a G that includes what
+/// solids displace.
+double backgroundFactor(double unevenness);
+
+}  // namespace rill

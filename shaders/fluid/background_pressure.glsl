@@ -1,0 +1,15 @@
+// What of its own pressure a particle does not feel: see engine/sph/background_pressure.hpp.
+#ifndef RILL_BACKGROUND_PRESSURE_GLSL
+#define RILL_BACKGROUND_PRESSURE_GLSL
+#include "shared/background_pressure.h"
+
+// The share of `gradient` (1/m), of the density by position of a particle that moves at `velocity` (m/s), that its own multiplier is not
+// multiplied by.
+vec3 backgroundGradient(vec3 gradient, vec3 velocity) {
+  float moves = dot(velocity, velocity);
+  float slow = kBackgroundSpeed * kBackgroundSpeed * params.spacing * length(gravity());
+  if (control.phase != kPhaseAdvancing || slow == 0.0) return vec3(0.0);
+  float uneven = smoothstep(kEvenSupport, kUnevenSupport, sqrt(dot(gradient, gradient)) * params.spacing);
+  return kBackgroundShare * moves / (moves + slow) * (1.0 - uneven) * gradient;
+}
+#endif

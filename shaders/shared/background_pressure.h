@@ -1,0 +1,13 @@
+// How much of its own pressure a particle does not feel: see engine/sph/background_pressure.hpp.
+#ifndef RILL_SHARED_BACKGROUND_PRESSURE_H
+#define RILL_SHARED_BACKGROUND_PRESSURE_H
+#include "shared/interop.h"
+RILL_RECORDS_BEGIN
+
+RILL_CONST float kBackgroundShare = 1.6f;   // of a particle with even support in a flow, 0 .. 2
+RILL_CONST float kBackgroundSpeed = 0.06f;  // speed over the root of gravity times spacing at which it is half of that
+RILL_CONST float kEvenSupport = 0.02f;      // |sum grad K| d up to which a support is even,
+RILL_CONST float kUnevenSupport = 0.08f;    // and from which on it is not
+
+RILL_RECORDS_END
+#endif
