@@ -114,7 +114,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   rejectedBefore_ = rejected_;
   blockTime_ += dt;
   for (size_t i = 0; i < size(); ++i)
-    backgroundShare_[i] = backgroundShare(glm::length(state.velocity[i]), glm::length(settings.gravity), settings.spacing);
+    backgroundShare_[i] = backgroundShare(glm::length(state.velocity[i]), glm::length(settings.gravity), settings.spacing, kernel_.h());
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     firstIteration_ = iteration == 0;

@@ -6,10 +6,11 @@
 
 namespace rill {
 
-double backgroundShare(double speed, double gravity, double spacing) {
+double backgroundShare(double speed, double gravity, double spacing, double support) {
   if (gravity == 0) return 0;
   const double slow = double{kBackgroundSpeed} * kBackgroundSpeed * gravity * spacing;
-  return kBackgroundShare * speed * speed / (speed * speed + slow);
+  const double enough = std::clamp((support / spacing - kTooFewNeighbors) / (kEnoughNeighbors - kTooFewNeighbors), 0.0, 1.0);
+  return kBackgroundShare * enough * speed * speed / (speed * speed + slow);
 }
 
 double backgroundFactor(double unevenness) {

@@ -13,8 +13,9 @@ namespace rill {
 ///
 /// Returns the share of p_i G for a particle at `speed` (m/s) under `gravity` (m/s^2): 2 would be differences alone. None without gravity,
 /// where no pressure lasts, and momentum, which this does not conserve, may have to close; and less for fluid at rest, whose noise the
-/// whole force damps. `spacing` in m.
-double backgroundShare(double speed, double gravity, double spacing);
+/// whole force damps. None either with a kernel of few neighbors, whose sums say little of how evenly they are spread. `spacing` and the
+/// radius of the kernel's `support` in m.
+double backgroundShare(double speed, double gravity, double spacing, double support);
 
 /// The factor 0 .. 1 of that for a particle. `unevenness`: |G| d, with a K whose sum is 1 in fluid at rest and a G that includes what
 /// solids displace.

@@ -9,7 +9,8 @@ vec3 backgroundGradient(vec3 gradient, vec3 velocity) {
   float moves = dot(velocity, velocity);
   float slow = kBackgroundSpeed * kBackgroundSpeed * params.spacing * length(gravity());
   if (control.phase != kPhaseAdvancing || slow < 1.0e-30) return vec3(0.0);  // no gravity; less may be flushed to 0
+  float enough = clamp((params.support / params.spacing - kTooFewNeighbors) / (kEnoughNeighbors - kTooFewNeighbors), 0.0, 1.0);
   float uneven = smoothstep(kEvenSupport, kUnevenSupport, sqrt(dot(gradient, gradient)) * params.spacing);
-  return kBackgroundShare * moves / (moves + slow) * (1.0 - uneven) * gradient;
+  return kBackgroundShare * enough * moves / (moves + slow) * (1.0 - uneven) * gradient;
 }
 #endif

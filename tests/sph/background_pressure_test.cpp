@@ -10,21 +10,27 @@ namespace rill {
 namespace {
 
 TEST(BackgroundPressure, IsLeftOutInMotionUnderGravityOnly) {
-  EXPECT_EQ(backgroundShare(3, 0, 0.1), 0);
-  EXPECT_EQ(backgroundShare(0, 9.81, 0.1), 0);
-  EXPECT_NEAR(backgroundShare(100, 9.81, 0.1), kBackgroundShare, 1e-3);
+  EXPECT_EQ(backgroundShare(3, 0, 0.1, 0.23), 0);
+  EXPECT_EQ(backgroundShare(0, 9.81, 0.1, 0.23), 0);
+  EXPECT_NEAR(backgroundShare(100, 9.81, 0.1, 0.23), kBackgroundShare, 1e-3);
   double last = 0;
   for (double speed = 0.01; speed < 3; speed *= 2) {
-    EXPECT_GT(backgroundShare(speed, 9.81, 0.1), last);
-    last = backgroundShare(speed, 9.81, 0.1);
+    EXPECT_GT(backgroundShare(speed, 9.81, 0.1, 0.23), last);
+    last = backgroundShare(speed, 9.81, 0.1, 0.23);
   }
-  EXPECT_NEAR(backgroundShare(kBackgroundSpeed * std::sqrt(9.81 * 0.1), 9.81, 0.1), kBackgroundShare / 2, 1e-6);
+  EXPECT_NEAR(backgroundShare(kBackgroundSpeed * std::sqrt(9.81 * 0.1), 9.81, 0.1, 0.23), kBackgroundShare / 2, 1e-6);
 }
 
 // A scene and the same one at another size, at the times that gravity gives it.
 TEST(BackgroundPressure, IsThatOfSimilarFlows) {
-  EXPECT_NEAR(backgroundShare(0.4, 9.81, 0.2), backgroundShare(0.2, 9.81, 0.05), 1e-12);
-  EXPECT_NEAR(backgroundShare(0.4, 9.81, 0.1), backgroundShare(0.2, 9.81 / 4, 0.1), 1e-12);
+  EXPECT_NEAR(backgroundShare(0.4, 9.81, 0.2, 0.46), backgroundShare(0.2, 9.81, 0.05, 0.115), 1e-12);
+  EXPECT_NEAR(backgroundShare(0.4, 9.81, 0.1, 0.23), backgroundShare(0.2, 9.81 / 4, 0.1, 0.23), 1e-12);
+}
+
+TEST(BackgroundPressure, IsWholeWithFewNeighbors) {
+  EXPECT_EQ(backgroundShare(100, 9.81, 0.1, 0.12), 0);
+  EXPECT_NEAR(backgroundShare(100, 9.81, 0.1, 0.175), kBackgroundShare / 2, 1e-3);
+  EXPECT_EQ(backgroundShare(100, 9.81, 0.1, 0.2), backgroundShare(100, 9.81, 0.1, 0.3));
 }
 
 TEST(BackgroundPressure, IsWholeWhereNeighborsAreUneven) {
