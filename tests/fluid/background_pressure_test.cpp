@@ -1,4 +1,6 @@
 // The part of its own pressure that a particle with even neighbors does not feel, on the device beside the reference.
+#include "shared/background_pressure.h"
+
 #include <algorithm>
 
 #include "fluid/substep_limits.hpp"
@@ -39,6 +41,12 @@ TEST_F(BackgroundPressureTest, ShowsInTheTrial) {
 TEST_F(BackgroundPressureTest, MatchesReference) {
   const Trial t = flowing();
   expectEqual(t, 1, substep_test::kOne, substep_test::kOne);
+  expectEqual(t, 10, substep_test::kTen, substep_test::kTen, substep_test::kAgeing);
+}
+
+TEST_F(BackgroundPressureTest, OfFewNeighborsMatchesReference) {
+  Trial t = flowing();
+  t.scene.fluid.smoothing_ratio = 0.5 * (kTooFewNeighbors + kEnoughNeighbors);
   expectEqual(t, 10, substep_test::kTen, substep_test::kTen, substep_test::kAgeing);
 }
 

@@ -33,7 +33,6 @@ double noiseUnderPressure(double gravity, double jitter) {
 // Gravity too small to move anything turns the share on.
 TEST(BackgroundPressure, GivesLessNoiseToFlows) {
   const double whole = noiseUnderPressure(0, 0.01), part = noiseUnderPressure(1e-9, 0.01);
-  std::printf("%g %g\n", whole, part);
   EXPECT_GT(whole, 0.01);
   EXPECT_LT(part, 0.4 * whole);
 }
@@ -41,7 +40,6 @@ TEST(BackgroundPressure, GivesLessNoiseToFlows) {
 // Unevenness beyond what the share is for, as at a surface or where neighbors clump.
 TEST(BackgroundPressure, ActsInFullOnUnevenNeighbors) {
   const double whole = noiseUnderPressure(0, 0.2), part = noiseUnderPressure(1e-9, 0.2);
-  std::printf("%g %g\n", whole, part);
   EXPECT_GT(part, 0.9 * whole);
 }
 
