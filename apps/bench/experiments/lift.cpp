@@ -10,13 +10,17 @@ namespace rill::bench {
 namespace {
 
 constexpr double kLiftEdge = 0.4;                                         // m, of the box, and the ball's diameter
-constexpr double kLiftTank = 0.7;                                         // m, width and depth of the water
+constexpr double kWater = 9;                                              // spacings, from the solid to walls and surface
 constexpr double kDuration = 3, kStill = 1.5;                             // s: the start's waves are over
 constexpr double kLiftSpacing[kLevels] = {0.4 / 12, 0.4 / 16, 0.4 / 24};  // m
 
+/// Width and depth of the water (m). In a gap of five spacings particles are in layers, which carry a part of the load.
+double tankOf(double spacing) { return kLiftEdge + 2 * kWater * spacing; }
+
 Expected<Outcome> liftOf(const Bench& bench, Solid solid, double volume, double spacing) {
-  Scene scene = boxScene(spacing, {0, 0, 0}, {kLiftTank, 1.4 * kLiftTank, kLiftTank});
-  scene.fill.push_back(boxFill({0, 0, 0}, {kLiftTank, kLiftTank, kLiftTank}));
+  const double tank = tankOf(spacing);
+  Scene scene = boxScene(spacing, {0, 0, 0}, {tank, 1.4 * tank, tank});
+  scene.fill.push_back(boxFill({0, 0, 0}, {tank, tank, tank}));
   solid.name = "held";
   scene.solids.push_back(std::move(solid));
   scene.probes.push_back({.name = "load", .load = "held"});
@@ -45,11 +49,11 @@ Expected<Outcome> liftOf(const Bench& bench, Solid solid, double volume, double 
 }  // namespace
 
 std::vector<Experiment> liftExperiments() {
-  constexpr double kMiddle = kLiftTank / 2, kLow = kMiddle - kLiftEdge / 2, kHigh = kMiddle + kLiftEdge / 2, kRadius = kLiftEdge / 2;
+  constexpr double kRadius = kLiftEdge / 2;
   const double boxVolume = kLiftEdge * kLiftEdge * kLiftEdge, ballVolume = boxVolume * std::numbers::pi / 6;
   std::vector<Experiment> all;
   for (unsigned level = 0; level < kLevels; ++level) {
-    const double spacing = kLiftSpacing[level];
+    const double spacing = kLiftSpacing[level], middle = tankOf(spacing) / 2, low = middle - kRadius, high = middle + kRadius;
     const auto add = [&](const char* family, double volume, auto makeSolid) {
       all.push_back({family, level, level == 0, spacing, [=](const Bench& bench) -> Expected<Outcome> {
                        Expected<Solid> solid = makeSolid();
@@ -57,12 +61,12 @@ std::vector<Experiment> liftExperiments() {
                        return liftOf(bench, std::move(*solid), volume, spacing);
                      }});
     };
-    add("lift-box", boxVolume, []() -> Expected<Solid> { return Solid{.shape = BoxShape{{kLow, kLow, kLow}, {kHigh, kHigh, kHigh}}}; });
-    add("lift-ball", ballVolume, []() -> Expected<Solid> { return Solid{.shape = SphereShape{{kMiddle, kMiddle, kMiddle}, kRadius}}; });
-    add("lift-mesh-ball", ballVolume, []() -> Expected<Solid> {
+    add("lift-box", boxVolume, [=]() -> Expected<Solid> { return Solid{.shape = BoxShape{{low, low, low}, {high, high, high}}}; });
+    add("lift-ball", ballVolume, [=]() -> Expected<Solid> { return Solid{.shape = SphereShape{{middle, middle, middle}, kRadius}}; });
+    add("lift-mesh-ball", ballVolume, [=]() -> Expected<Solid> {
       auto mesh = Mesh::create(ballMesh(kRadius, 4));
       if (!mesh) return mesh.error();
-      return Solid{.shape = MeshShape{.mesh = *mesh}, .translation = {kMiddle, kMiddle, kMiddle}};
+      return Solid{.shape = MeshShape{.mesh = *mesh}, .translation = {middle, middle, middle}};
     });
   }
   return all;
