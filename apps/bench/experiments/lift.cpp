@@ -10,12 +10,12 @@ namespace rill::bench {
 namespace {
 
 constexpr double kLiftEdge = 0.4;                                         // m, of the box, and the ball's diameter
-constexpr double kWater = 9;                                              // spacings, from the solid to walls and surface
+constexpr double kClearance = 9;                                          // spacings, from the solid to walls and surface
 constexpr double kDuration = 3, kStill = 1.5;                             // s: the start's waves are over
 constexpr double kLiftSpacing[kLevels] = {0.4 / 12, 0.4 / 16, 0.4 / 24};  // m
 
 /// Width and depth of the water (m). In a gap of five spacings particles are in layers, which carry a part of the load.
-double tankOf(double spacing) { return kLiftEdge + 2 * kWater * spacing; }
+double tankOf(double spacing) { return kLiftEdge + 2 * kClearance * spacing; }
 
 Expected<Outcome> liftOf(const Bench& bench, Solid solid, double volume, double spacing) {
   const double tank = tankOf(spacing);
