@@ -14,10 +14,11 @@ static_assert(kFieldCells == DistanceGrid::kCells && kFieldNodes == DistanceGrid
 
 constexpr double kMaxCoarseWords = 4e6;  // blocks and their corners, each of which is a search for the nearest triangle
 
-/// Computes c of the header by sums over the nodes that the kernel reaches. The same sums over the half-space make it 1 at flat faces.
-class FactorSums {
+/// Distances in and around a block of nodes, and what the field stores at these: c of the header, by sums over the nodes that the
+/// kernel reaches (the same sums over the half-space make it 1 at flat faces), and the distance.
+class BlockWindow {
  public:
-  FactorSums(const DistanceGrid& grid, const SmoothingKernel& kernel)
+  BlockWindow(const DistanceGrid& grid, const SmoothingKernel& kernel)
       : grid_(grid),
         reach_(static_cast<int64_t>(std::ceil(kernel.h() / grid.cell))),
         side_(DistanceGrid::kNodes + 2 * reach_),
@@ -38,19 +39,27 @@ class FactorSums {
     size_t n = 0;
     for (int64_t z = -reach_; z < side_ - reach_; ++z)
       for (int64_t y = -reach_; y < side_ - reach_; ++y)
-        for (int64_t x = -reach_; x < side_ - reach_; ++x, ++n) {
+        for (int64_t x = -reach_; x < side_ - reach_; ++x, ++n)
           distances_[n] = static_cast<float>(grid_.at({first[0] + x, first[1] + y, first[2] + z}) / grid_.cell);
-          shares_[n] = shareInside(distances_[n]);
-        }
+    // Taps end a node before the window does.
+    for (int64_t z = 1; z < side_ - 1; ++z)
+      for (int64_t y = 1; y < side_ - 1; ++y)
+        for (int64_t at = (z * side_ + y) * side_ + 1, end = at + side_ - 2; at < end; ++at)
+          shares_[static_cast<size_t>(at)] = shareInside(distances_[static_cast<size_t>(at)] + laplacian(at) / 24);
   }
 
-  /// Of a node of the block, by its numbers within it.
+  /// To store at a node of the block, m. Interpolation along each axis lies above a convex function, by cell²/12 of its Laplacian in
+  /// the mean over a cell, and would make a convex mesh smaller: the node has that much less. Flat faces stay as they are.
+  double distance(const std::array<size_t, 3>& node) const {
+    const int64_t at = indexOf(node);
+    return (double{distances_[static_cast<size_t>(at)]} - double{laplacian(at)} / 12) * grid_.cell;
+  }
+
+  /// c of a node of the block, by its numbers within it.
   double factor(const std::array<size_t, 3>& node) const {
-    const int64_t steps[3] = {1, side_, side_ * side_};
-    int64_t at = 0;
-    for (size_t a = 0; a < 3; ++a) at += (static_cast<int64_t>(node[a]) + reach_) * steps[a];
-    const float* distance = distances_.data() + at;
-    const float* share = shares_.data() + at;
+    const std::array<int64_t, 3> steps = this->steps();
+    const float* distance = distances_.data() + indexOf(node);
+    const float* share = shares_.data() + indexOf(node);
     float normal[3] = {0, 1, 0};  // between two faces any direction does
     const float slope[3] = {distance[steps[0]] - distance[-steps[0]], distance[steps[1]] - distance[-steps[1]],
                             distance[steps[2]] - distance[-steps[2]]};
@@ -72,8 +81,22 @@ class FactorSums {
     float offset[3];  // cells
     float weight;
   };
-  /// Of a cell whose middle is at this distance (cells), as if it faced the surface.
+  /// Of a cell from whose middle this distance (cells) is a mean one, as if it faced the surface.
   static float shareInside(float distance) { return std::clamp(0.5f - distance, 0.0f, 1.0f); }
+  /// Of the distance, cells, at a node that is not the window's last.
+  float laplacian(int64_t at) const {
+    const float* distance = distances_.data() + at;
+    float sum = -6 * *distance;
+    for (int64_t step : steps()) sum += distance[step] + distance[-step];
+    return sum;
+  }
+  /// To the next node along each axis.
+  std::array<int64_t, 3> steps() const { return {1, side_, side_ * side_}; }
+  int64_t indexOf(const std::array<size_t, 3>& node) const {
+    int64_t at = 0;
+    for (size_t a = 0; a < 3; ++a) at += (static_cast<int64_t>(node[a]) + reach_) * steps()[a];
+    return at;
+  }
 
   const DistanceGrid& grid_;
   int64_t reach_, side_;                   // cells that the kernel reaches; nodes along the window around a block
@@ -142,19 +165,18 @@ Expected<MeshField> MeshField::create(const Mesh& mesh, const SmoothingKernel& k
   for (uint32_t fine : grid.fine)
     out.push_back(fine == DistanceGrid::kCoarse ? kFieldCoarse : static_cast<uint32_t>(nodes + size_t{fine} * DistanceGrid::kBlockNodes));
   out.reserve(nodes + grid.nodes.size());
-  FactorSums sums(grid, kernel);
+  BlockWindow window(grid, kernel);
   const double displacing = solidReach(kernel);
   for (size_t block = 0, n = 0; block < grid.blockCount(); ++block) {
     if (grid.fine[block] == DistanceGrid::kCoarse) continue;
     const std::array<size_t, 3> in{block % grid.blocks[0], block / grid.blocks[0] % grid.blocks[1],
                                    block / (size_t{grid.blocks[0]} * grid.blocks[1])};
-    sums.enter({int64_t(in[0] * kFieldCells), int64_t(in[1] * kFieldCells), int64_t(in[2] * kFieldCells)});
+    window.enter({int64_t(in[0] * kFieldCells), int64_t(in[1] * kFieldCells), int64_t(in[2] * kFieldCells)});
     for (size_t k = 0; k < DistanceGrid::kBlockNodes; ++k, ++n) {
       const double s = grid.nodes[n];
       const bool displaces = s < displacing + grid.cell && s > -band.inside - grid.cell;
-      const double factor =
-          displaces ? sums.factor({k % kFieldNodes, k / kFieldNodes % kFieldNodes, k / (kFieldNodes * kFieldNodes)}) : 1.0;
-      out.push_back(packed(s, factor, range));
+      const std::array<size_t, 3> node{k % kFieldNodes, k / kFieldNodes % kFieldNodes, k / (kFieldNodes * kFieldNodes)};
+      out.push_back(packed(window.distance(node), displaces ? window.factor(node) : 1.0, range));
     }
   }
   return field;
