@@ -5,12 +5,11 @@
 RILL_RECORDS_BEGIN
 
 RILL_CONST float kBackgroundShare = 1.6f;   // of a particle with even support in a flow, 0 .. 2
-RILL_CONST float kBackgroundSpeed = 0.03f;  // speed over the root of gravity times spacing at which it is half of that
+RILL_CONST float kBackgroundSpeed = 0.06f;  // speed over the root of gravity times spacing at which it is half of that
 RILL_CONST float kTooFewNeighbors = 1.5f;   // radius of the kernel's support over the spacing up to which neighbors are too few for it,
 RILL_CONST float kEnoughNeighbors = 2.0f;   // and from which on they are enough
 RILL_CONST float kEvenSupport = 0.02f;      // |sum grad K| d up to which a support is even,
 RILL_CONST float kUnevenSupport = 0.08f;    // and from which on it is not
-RILL_CONST float kLeastDisplaced = 0.001f;  // |gradient of the displaced density| d from which on a solid's normal is left alone
 
 RILL_RECORDS_END
 #endif
