@@ -58,8 +58,9 @@ class BlockWindow {
   /// c of a node of the block, by its numbers within it.
   double factor(const std::array<size_t, 3>& node) const {
     const std::array<int64_t, 3> steps = this->steps();
-    const float* distance = distances_.data() + indexOf(node);
-    const float* share = shares_.data() + indexOf(node);
+    const int64_t at = indexOf(node);
+    const float* distance = distances_.data() + at;
+    const float* share = shares_.data() + at;
     float normal[3] = {0, 1, 0};  // between two faces any direction does
     const float slope[3] = {distance[steps[0]] - distance[-steps[0]], distance[steps[1]] - distance[-steps[1]],
                             distance[steps[2]] - distance[-steps[2]]};
@@ -81,7 +82,7 @@ class BlockWindow {
     float offset[3];  // cells
     float weight;
   };
-  /// Of a cell from whose middle this distance (cells) is a mean one, as if it faced the surface.
+  /// Of a cell whose points are at this distance (cells) in the mean, as if it faced the surface.
   static float shareInside(float distance) { return std::clamp(0.5f - distance, 0.0f, 1.0f); }
   /// Of the distance, cells, at a node that is not the window's last.
   float laplacian(int64_t at) const {
