@@ -9,7 +9,8 @@ namespace rill {
 /// along each other rub. Differences of pressures, (p_j - p_i) grad K, have no such part (Sun, Colagrossi, Marrone, Antuono and Zhang
 /// 2018, Computer Physics Communications 224, who use them away from the surface), but nothing then keeps neighbors spread evenly.
 /// So a particle that moves is left without a share of p_i G, and gets all of the force where G is large: at the surface, and where the
-/// neighbors have become uneven. See docs/notes/background-pressure.md.
+/// neighbors have become uneven. Beside solids it is the part of G along their surface: across it p_i G is what bears the fluid. See
+/// docs/notes/background-pressure.md.
 ///
 /// Returns the share of p_i G for a particle at `speed` (m/s) under `gravity` (m/s^2): 2 would be differences alone. None without gravity,
 /// where no pressure lasts, and momentum, which this does not conserve, may have to close; and less for fluid at rest, whose noise the
@@ -18,7 +19,7 @@ namespace rill {
 double backgroundShare(double speed, double gravity, double spacing, double support);
 
 /// The factor 0 .. 1 of that for a particle. `unevenness`: |G| d, with a K whose sum is 1 in fluid at rest and a G that includes what
-/// solids displace.
+/// solids displace; beside solids, its part along their surface.
 double backgroundFactor(double unevenness);
 
 }  // namespace rill

@@ -78,7 +78,7 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
 // The sums over neighbors in meters, and what mouths add; near solids what pairs.comp has summed up.
 void endSums(uint i, uint head) {
   vec3 displaced = MOUTHS ? displacedAt(i, head).xyz : vec3(0.0);
-  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, velocity[i].xyz);
+  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, vec3(0.0), velocity[i].xyz);
   correction = unit * (params.gradientScale * correction + own.x * ownGradient);
   warmDisplacement = unit * (params.gradientScale * warmDisplacement + own.y * ownGradient);
   if (!isNearSolids(head)) return;

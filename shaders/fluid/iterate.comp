@@ -55,7 +55,7 @@ void main() {
   visitNeighbors(i, visits ? head : 0u, local, visits);
   if (!moves) return;
   vec3 displaced = MOUTHS ? displacedAt(i, head).xyz : vec3(0.0);
-  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, velocity[i].xyz);
+  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, vec3(0.0), velocity[i].xyz);
   moved = unit * (params.gradientScale * moved + own * ownGradient);
   if (nearSolids) {
     moved = nearCorrectionAt(2u * i).xyz;
