@@ -16,6 +16,8 @@ constexpr std::string_view kOddExtension = "at a wall the curvature of the profi
 constexpr std::string_view kLag = "a plug begins within a support of the fluid that yields";
 constexpr std::string_view kHeave = "short waves lose a fifth of their height and more a period, and the ball is a few spacings wide";
 
+constexpr std::string_view kResistance = "particles in layers around a ball resist as sand does: docs/notes/background-pressure.md";
+
 constexpr std::string_view kReleased =
     "in the first step the body takes the load that it had when it was held, before the reaction of the fluid";
 
@@ -76,6 +78,8 @@ constexpr Band kBands[] = {
     {"released-ball-0.1", "first acceleration", 0.05, {1.5, 1, 0.4}, "%", kReleased},
     {"released-ball-", "first acceleration", 0.05, {0.2, 0.2, 0.2}, "%", kReleased},
     {"released-ball-", "mean acceleration, 50 ms", kNoAim, {0.4, 0.4, 0.3}, "%", ""},
+    {"sinking-ball", "mean speed", 0.05, {0.72, 0.56, 0.48}, "%", kResistance},
+    {"rising-ball", "mean speed", 0.05, {0.86, 0.74, 0.66}, "%", kResistance},
     {"heave-ball", "period", 0.05, {0.16, 0.16, 0.16}, "%", kHeave},
     {"heave-ball", "height after a period", 0.05, {0.7, 0.7, 0.7}, "%", kHeave},
     {"water-entry-wedge", "force", 0.05, {0.25, 0.2, 0.2}, "%", "fluid meets the wedge within about a spacing of its surface"},

@@ -53,6 +53,7 @@ std::vector<Experiment> freeExperiments();  ///< free fall; momentum of a drop
 std::vector<Experiment> jetExperiments();
 std::vector<Experiment> liftExperiments();        ///< lift of held solids
 std::vector<Experiment> bodyExperiments();        ///< rigid bodies in water
+std::vector<Experiment> sinkingExperiments();     ///< balls that sink and rise
 std::vector<Experiment> slipExperiments();        ///< viscous fluid that sticks to walls, solids and bodies
 std::vector<Experiment> shearExperiments();       ///< viscosity that depends on shear: plates, slumps
 std::vector<Experiment> waterEntryExperiments();  ///< force on a wedge

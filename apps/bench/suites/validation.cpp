@@ -40,7 +40,8 @@ std::vector<Experiment> experiments() {
         jetExperiments(),      liftExperiments(),  bodyExperiments(),    slipExperiments(),       waterEntryExperiments(),
         obstacleExperiments(), tapExperiments(),   channelExperiments(), orificeExperiments(),    weirExperiments(),
         jumpExperiments(),     lakeExperiments(),  mixtureExperiments(), bubbleExperiments(),     dropExperiments(),
-        oilDropExperiments(),  shearExperiments(), crownExperiments(),   dropMotionExperiments(), wettingExperiments()})
+        oilDropExperiments(),  shearExperiments(), crownExperiments(),   dropMotionExperiments(), wettingExperiments(),
+        sinkingExperiments()})
     all.insert(all.end(), family.begin(), family.end());
   return all;
 }
