@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "reference/solver.hpp"
-#include "shared/background_pressure.h"
 #include "shared/body_records.h"
 #include "sph/background_pressure.hpp"
 
@@ -17,13 +16,11 @@ double ReferenceSolver::artificialPressureTerm(double value, double push) const 
 
 glm::dvec3 ReferenceSolver::ownGradient(size_t i) const {
   const glm::dvec3 displaced = vec(boundary_[i].gradient);
-  glm::dvec3 along = displaced;
-  for (const Pair& pair : pairs(i)) along += pair.gradient;
-  const double least = double{kLeastDisplaced} / settings.spacing;
-  const Double3& coverage = boundary_[i].coverage;  // by solids; mouths go on with the fluid
-  if (coverage.x + coverage.y + coverage.z > 0)
-    along -= glm::dot(along, displaced) / (glm::dot(displaced, displaced) + least * least) * displaced;
-  return displaced - backgroundShare_[i] * backgroundFactor(glm::length(along) * settings.spacing) * along;
+  glm::dvec3 sum = displaced;
+  for (const Pair& pair : pairs(i)) sum += pair.gradient;
+  const Double3& coverage = boundary_[i].coverage;  // by solids: beside mouths alone the fluid goes on
+  if (coverage.x + coverage.y + coverage.z > 0) sum = alongSurface(sum, displaced, settings.spacing);
+  return displaced - backgroundShare_[i] * backgroundFactor(glm::length(sum) * settings.spacing) * sum;
 }
 
 void ReferenceSolver::correction(double dt, double push) {

@@ -1,6 +1,7 @@
 #include "sph/background_pressure.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "shared/background_pressure.h"
 
@@ -16,6 +17,11 @@ double backgroundShare(double speed, double gravity, double spacing, double supp
 double backgroundFactor(double unevenness) {
   const double t = std::clamp((unevenness - kEvenSupport) / (kUnevenSupport - kEvenSupport), 0.0, 1.0);
   return 1 - t * t * (3 - 2 * t);
+}
+
+glm::dvec3 alongSurface(const glm::dvec3& gradient, const glm::dvec3& displaced, double spacing) {
+  const double least = double{kMinDisplaced} / spacing;
+  return gradient - glm::dot(gradient, displaced) / (glm::dot(displaced, displaced) + least * least) * displaced;
 }
 
 }  // namespace rill

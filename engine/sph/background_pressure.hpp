@@ -1,4 +1,5 @@
 #pragma once
+#include <glm/vec3.hpp>
 
 namespace rill {
 
@@ -9,7 +10,7 @@ namespace rill {
 /// along each other rub. Differences of pressures, (p_j - p_i) grad K, have no such part (Sun, Colagrossi, Marrone, Antuono and Zhang
 /// 2018, Computer Physics Communications 224, who use them away from the surface), but nothing then keeps neighbors spread evenly.
 /// So a particle that moves is left without a share of p_i G, and gets all of the force where G is large: at the surface, and where the
-/// neighbors have become uneven. Beside solids it is the part of G along their surface: across it p_i G is what bears the fluid. See
+/// neighbors have become uneven. Beside solids only the part of G along their surface counts: across it p_i G is what bears the fluid. See
 /// docs/notes/background-pressure.md.
 ///
 /// Returns the share of p_i G for a particle at `speed` (m/s) under `gravity` (m/s^2): 2 would be differences alone. None without gravity,
@@ -21,5 +22,9 @@ double backgroundShare(double speed, double gravity, double spacing, double supp
 /// The factor 0 .. 1 of that for a particle. `unevenness`: |G| d, with a K whose sum is 1 in fluid at rest and a G that includes what
 /// solids displace; beside solids, its part along their surface.
 double backgroundFactor(double unevenness);
+
+/// The part of `gradient` (1/m) along the surface of solids whose displaced density has the gradient `displaced` (1/m). Of several solids
+/// that is the sum: in an edge between two, what is left is perpendicular to the line that halves it. `spacing` in m.
+glm::dvec3 alongSurface(const glm::dvec3& gradient, const glm::dvec3& displaced, double spacing);
 
 }  // namespace rill

@@ -76,7 +76,7 @@ void main() {
   warmDisplacement *= toMeters;
   SolidScale scale = solidScaleAt(i, head);
   vec3 displaced = displacedAt(i, head).xyz;
-  vec3 bySolids = scale.diagonal != vec3(1.0) ? displaced : vec3(0.0);  // mouths alone go on with the fluid
+  vec3 bySolids = scale.diagonal != vec3(1.0) ? displaced : vec3(0.0);  // beside mouths alone the fluid goes on
   vec3 ownGradient = unit * (displaced - backgroundGradient(params.gradientScale * gradients + displaced, bySolids, velocity[i].xyz));
   correction += scaledExcess(scale, correction) + toMeters * excess + own.x * ownGradient;
   warmDisplacement += scaledExcess(scale, warmDisplacement) + toMeters * warmExcess + own.y * ownGradient;

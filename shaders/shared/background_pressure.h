@@ -10,7 +10,7 @@ RILL_CONST float kTooFewNeighbors = 1.5f;   // radius of the kernel's support ov
 RILL_CONST float kEnoughNeighbors = 2.0f;   // and from which on they are enough
 RILL_CONST float kEvenSupport = 0.02f;      // |sum grad K| d up to which a support is even,
 RILL_CONST float kUnevenSupport = 0.08f;    // and from which on it is not
-RILL_CONST float kLeastDisplaced = 0.001f;  // |gradient of the displaced density| d from which on a solid's normal is left alone
+RILL_CONST float kMinDisplaced = 0.001f;    // |gradient of the density that solids displace| d at which half of what is across is taken out
 
 RILL_RECORDS_END
 #endif

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "shared/background_pressure.h"
 
@@ -39,6 +40,19 @@ TEST(BackgroundPressure, IsWholeWhereNeighborsAreUneven) {
   EXPECT_NEAR(backgroundFactor(0.5 * (kEvenSupport + kUnevenSupport)), 0.5, 1e-6);
   EXPECT_NEAR(backgroundFactor(kUnevenSupport), 0, 1e-9);
   EXPECT_EQ(backgroundFactor(1e30), 0);
+}
+
+// A solid takes what is across its surface, and nothing else.
+TEST(BackgroundPressure, CountsAlongSolidsOnly) {
+  constexpr double kSpacing = 0.1;
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(1, 2, -2)), along = {0, 3, 3};
+  const auto rest = [&](double displaced) {  // over the spacing
+    return alongSurface(along + 5.0 * normal, displaced / kSpacing * normal, kSpacing) - along;
+  };
+  EXPECT_LT(glm::length(rest(0.3)), 1e-4);
+  EXPECT_LT(glm::length(rest(-0.3)), 1e-4);
+  EXPECT_LT(glm::length(rest(kMinDisplaced) - 2.5 * normal), 1e-9);
+  EXPECT_EQ(rest(0), (along + 5.0 * normal) - along);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ constexpr std::string_view kOddExtension = "at a wall the curvature of the profi
 constexpr std::string_view kLag = "a plug begins within a support of the fluid that yields";
 constexpr std::string_view kHeave = "short waves lose a fifth of their height and more a period, and the ball is a few spacings wide";
 
-constexpr std::string_view kResistance = "particles in layers around a ball resist as sand does: docs/notes/background-pressure.md";
+constexpr std::string_view kResistance =
+    "layers around a ball resist by a share of the pressure, and as a viscous fluid: docs/notes/bodies.md";
 
 constexpr std::string_view kReleased =
     "in the first step the body takes the load that it had when it was held, before the reaction of the fluid";

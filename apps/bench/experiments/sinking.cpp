@@ -8,25 +8,25 @@
 namespace rill::bench {
 namespace {
 
-constexpr double kGravity = 9.81;                                  // m/s^2
-constexpr double kRadius = 0.06;                                   // m
-constexpr double kWide = 0.48, kDeep = 0.9;                        // m, of the water
-constexpr double kFromEnd = 0.18;                                  // m, from the center to the surface or the floor at the start
-constexpr double kPath = 0.4;                                      // m
-constexpr double kHeld = 2, kLongest = 2;                          // s: the start's waves are over; time for the travel at most
-constexpr double kSpacing[kLevels] = {0.06 / 2, 0.06 / 3, 0.015};  // m: 2, 3 and 4 to the radius
-constexpr double kDrag = 0.44;                                     // coefficient of a sphere, from a Reynolds number of 1,000 to 200,000
+constexpr double kGravity = 9.81;            // m/s^2
+constexpr double kRadius = 0.06;             // m
+constexpr double kWide = 0.48, kDeep = 0.9;  // m, of the water
+constexpr double kFromEnd = 0.18;            // m, from the center to the surface or the floor at the start
+constexpr double kPath = 0.4;                // m
+constexpr double kHeld = 2, kLongest = 2;    // s: the start's waves are over; time for the travel at most
+constexpr double kSpacing[kLevels] = {kRadius / 2, kRadius / 3, kRadius / 4};  // m
+constexpr double kDragCoefficient = 0.44;  // of a sphere that is held, from a Reynolds number of 1,000 to 200,000
 
-/// Seconds in which a ball of `ratio` times the water's density travels `distance` (m) from rest: (ratio + 1/2) V dv/dt = |ratio - 1| g V
-/// - C v^2 pi R^2 / 2, with the added mass of a sphere, V / 2.
+/// Seconds in which a ball of `ratio` times the water's density travels `distance` (m) from rest in water without bounds. Per mass of the
+/// water that it displaces, (ratio + 1/2) dv/dt = |ratio - 1| g - 3 / (8 R) C v^2, with the added mass of a sphere and its drag.
 double travelTime(double ratio, double distance) {
-  const double rate = kDrag * 3 / (8 * kRadius * (ratio + 0.5));  // 1/m
-  const double fastest = std::sqrt(std::abs(ratio - 1) * kGravity / ((ratio + 0.5) * rate));
-  return std::acosh(std::exp(rate * distance)) / (rate * fastest);
+  const double drag = kDragCoefficient * 3 / (8 * kRadius * (ratio + 0.5));  // 1/m, over the speed's square
+  const double terminal = std::sqrt(std::abs(ratio - 1) * kGravity / ((ratio + 0.5) * drag));
+  return std::acosh(std::exp(drag * distance)) / (drag * terminal);
 }
 
 Expected<Outcome> travel(const Bench& bench, double ratio, double spacing) {
-  const double start = ratio > 1 ? kDeep - kFromEnd : kFromEnd;
+  const double start = ratio > 1 ? kDeep - kFromEnd : kFromEnd, sign = ratio > 1 ? -1 : 1;
   Scene scene = boxScene(spacing, {0, 0, 0}, {kWide, 1.3 * kDeep, kWide});
   scene.fill.push_back(boxFill({0, 0, 0}, {kWide, kDeep, kWide}));
   scene.solids.push_back(
@@ -37,17 +37,20 @@ Expected<Outcome> travel(const Bench& bench, double ratio, double spacing) {
   if (!run) return run.error();
   outcome.run = std::move(*run);
   std::vector<std::pair<double, double>> curve;
-  double distance = 0, time = 0;  // of the travel, or of what there is of it
+  double distance = 0, time = 0;  // m, s: of the path, or of as much of it as there is
   for (const apps::Instant& instant : outcome.run.instants) {
     const double since = instant.time_s - kHeld;
-    if (since < 0) continue;
+    if (since <= 0 || distance >= kPath) continue;
     const auto& pose = std::get<offline::PoseValue>(instant.stats.probes.front().second);
-    curve.emplace_back(since, std::abs(pose.velocity.y));
-    if (distance >= kPath) continue;
-    distance = std::abs(pose.position.y - start);
+    const double speed = sign * pose.velocity.y;
+    curve.emplace_back(since, speed);
+    distance = sign * (pose.position.y - start);
     time = since;
+    if (distance < kPath) continue;
+    time -= (distance - kPath) / speed;  // it ended between two frames
+    distance = kPath;
   }
-  outcome.figures.push_back(relativeFigure("mean speed", std::min(distance, kPath) / time, kPath / travelTime(ratio, kPath)));
+  outcome.figures.push_back(relativeFigure("mean speed", distance / time, kPath / travelTime(ratio, kPath)));
   outcome.curves["speed"] = curveJson(curve);
   return outcome;
 }
