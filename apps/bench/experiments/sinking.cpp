@@ -1,5 +1,4 @@
 // Balls that sink and rise in still water, a few spacings wide: their mean speed over the first 0.4 m.
-#include <algorithm>
 #include <cmath>
 #include <variant>
 
