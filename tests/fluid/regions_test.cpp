@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 
 #include "fluid/regions_fixture.hpp"
 
@@ -88,14 +89,20 @@ TEST_F(RegionsTest, SavingAndGoingOnChangesNothing) { expectSavingChangesNothing
 // The tap raises the level by most of a layer, so slowly that hardly anything moves: pressure has to wake what sleeps.
 TEST_F(RegionsTest, MatchesRunWithoutSleep) { expectEndWithoutSleep(channel(), partlyAsleep()); }
 
-// Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own: of eight layers, some.
+// Regions of a fluid that slept as a whole rested, also those that had not fallen asleep on their own: of some numbers of layers.
 TEST_F(RegionsTest, TapWakesItsOwnEndOfAFluidThatSlept) {
-  const Trial t = channel(10);
-  auto run = start(t);
-  frames(*run, kOpens);
-  EXPECT_EQ(sleeping(*run), t.x.size());
-  const auto regions = regionsOf(run->saved());
-  EXPECT_GT(std::ranges::count(regions, kRegionAwake, &RegionRecord::state), 0) << "not what this test is about";
+  Trial t;
+  std::unique_ptr<Run> run;
+  bool mixed = false;
+  for (const int layers : {10, 9, 8}) {  // which of them differs by rounding
+    t = channel(layers);
+    run = start(t);
+    frames(*run, kOpens);
+    const auto regions = regionsOf(run->saved());
+    mixed = sleeping(*run) == t.x.size() && std::ranges::count(regions, kRegionAwake, &RegionRecord::state) > 0;
+    if (mixed) break;
+  }
+  ASSERT_TRUE(mixed) << "not what this test is about";
   frames(*run, 0.05);
   const FluidSnapshot s = run->saved();
   ASSERT_EQ(s.rest.size(), s.id.size());
