@@ -122,6 +122,7 @@ constexpr std::array<ArrayRow, kArrays> makeTable() {
       {InReach, "inReach", "particles in reach of solids", Section, 8, perParticleIfSolids, Account::Particles},
       {Smoothed, "smoothed", "smoothed velocities", Section, kVector, [](const ArrayShape& s) { return s.smooths ? s.particles + 1 : 0; },
        Account::Particles},
+      {Coherence, "coherence", "coherence of motion", Fluid, kWord, perParticleIf<&ArrayShape::smooths>, Account::Particles},
       {Hold, "hold", "hold of solids", Fluid, kVector, perParticleIf<&ArrayShape::noSlipSolids>, Account::Particles},
       {PriorVelocity, "priorVelocity", "velocities before, and viscosities", Fluid, kVector,
        [](const ArrayShape& s) { return s.shearViscosity ? s.particles + 1 : 0; }, Account::Particles},

@@ -76,6 +76,7 @@ enum class FluidArray : uint8_t {
   NearSampled,
   InReach,
   Smoothed,
+  Coherence,
   Hold,
   PriorVelocity,
   Residual,

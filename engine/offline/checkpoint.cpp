@@ -24,7 +24,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are copied without byte swapping");
 
 constexpr std::string_view kMagic = "RILLCKPT";
-constexpr uint32_t kFormat = 26;
+constexpr uint32_t kFormat = 27;
 constexpr uint64_t kHeaderBytes = 24, kTableEntryBytes = 16, kChecksumBytes = 8;
 
 /// Calls visit(section name, array) for the arrays of the state in the order of the file.

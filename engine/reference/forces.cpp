@@ -5,6 +5,7 @@
 
 #include "reference/solver.hpp"
 #include "shared/fluid_records.h"
+#include "sph/background_pressure.hpp"
 
 namespace rill::reference {
 
@@ -12,11 +13,14 @@ double ReferenceSolver::xsphCoefficient(double viscosity, double dt) const {
   return 2 * viscosity * dt / (settings.density * kernel_.secondMoment());
 }
 
-void ReferenceSolver::dampNoise(double dt) {
-  const double c = std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, dt), double{kMaxNoiseDamping});
+void ReferenceSolver::dampNoise(double dt, double blockTime) {
+  const double c = std::min(xsphCoefficient(restFactor_ * settings.viscosityAtRest, blockTime), double{kMaxNoiseDamping});
+  const double layerSpeed = settings.sparedFlow / kSparedFlow;
   std::vector<glm::dvec3> noise = meanDifference(state.velocity);
-  for (size_t i = 0; i < size() && settings.sparedFlow > 0; ++i) {
+  for (size_t i = 0; i < size() && c > 0 && settings.sparedFlow > 0; ++i) {
     const glm::dvec3 mean = state.velocity[i] + noise[i];
+    const double layers = -state.warm[i] * inverseMass(i) / std::pow(dt * layerSpeed, 2);
+    coherence_[i] = coherence(glm::length(mean), glm::length(noise[i]), layerSpeed, layers);
     noise[i] /= 1 + std::pow(glm::dot(mean, mean) / (settings.sparedFlow * settings.sparedFlow + glm::dot(noise[i], noise[i])), 2);
   }
   add(-c, meanDifference(noise));

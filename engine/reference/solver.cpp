@@ -41,6 +41,7 @@ ReferenceSolver::ReferenceSolver(const ReferenceSettings& s, std::span<const glm
   rejectedBefore_ = rejected_;
   gaveWay_.assign(count, false);
   backgroundShare_.assign(count, 0);
+  coherence_.assign(count, 0);
   planned_ = gain_ = wallPosition_ = std::vector<glm::dvec3>(count, glm::dvec3(0));
   for (const glm::dvec3& v : state.velocity)
     if (finite(v)) addSpeed(glm::length(v));
@@ -113,8 +114,10 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   rejected_.assign(size(), glm::dvec3(0));
   rejectedBefore_ = rejected_;
   blockTime_ += dt;
+  if (blockStart_) coherence_.assign(size(), 0);
+  const double gravity = glm::length(settings.gravity);
   for (size_t i = 0; i < size(); ++i)
-    backgroundShare_[i] = backgroundShare(glm::length(state.velocity[i]), glm::length(settings.gravity), settings.spacing, kernel_.h());
+    backgroundShare_[i] = backgroundShare(glm::length(state.velocity[i]), coherence_[i], gravity, settings.spacing, kernel_.h());
   const double push = std::min(artificial_.rate * dt * dt, artificial_.most);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     firstIteration_ = iteration == 0;
@@ -139,7 +142,7 @@ void ReferenceSolver::substep(double dt, double dtNext) {
   }
   if (blockStart_) {
     if (settings.viscosityAtRest > 0) {
-      dampNoise(blockTime_);
+      dampNoise(dt, blockTime_);
       done(Stage::NoiseDamping);
     }
     if (!state.concentration.empty()) {

@@ -122,8 +122,9 @@ class ReferenceSolver {
   void correction(double dt, double push);  ///< x*; `push`: artificial pressure times D_rest
   void velocities(double dt);               ///< v, x; adds dt to time()
   void viscosity(double dt);                ///< v: v' = v + dt f(v'), f the force of sph/viscosity.hpp; then noSlip()
-  void dampNoise(double dt);                ///< v: v -= c L(w L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest, w of sparedFlow
-  void diffuse(double dt);                  ///< state.concentration: dc/dt of sph/diffusion.hpp
+  /// v: v -= c L(w L v), (L v)_i = sum_j K_ij (v_j - v_i), c of viscosityAtRest and `blockTime`, w of sparedFlow; and the coherence of v.
+  void dampNoise(double dt, double blockTime);
+  void diffuse(double dt);  ///< state.concentration: dc/dt of sph/diffusion.hpp
   /// Vorticity confinement (Macklin and Mueller 2013, eq. 15 and 16, with a dimensionless coefficient):
   ///   v += dt eps_v h |omega| (N x omega), omega_i = sum_j G_ij x (v_j - v_i), eta_i = sum_j G_ij (|omega_j| - |omega_i|),
   ///   N = eta / (|eta| + 0.001 |omega| / h).
@@ -284,6 +285,7 @@ class ReferenceSolver {
   double squares_ = 0;                    ///< sum of the squares of speeds, m^2/s^2, likewise
   std::vector<glm::dvec3> wallPosition_;  ///< m, position after the last correction and the walls, before solids
   std::vector<glm::dvec3> planned_;       ///< m, displacement of the prediction before walls and solids
+  std::vector<double> coherence_;         ///< of the motion, found with noise damping; 0 before that in a block
   std::vector<double> backgroundShare_;   ///< of its own pressure that a particle does not feel: see sph/background_pressure.hpp
   std::vector<glm::dvec3> gain_;          ///< m, displacement by the last correction and the walls
 };

@@ -33,6 +33,7 @@ layout(std430, binding = 14) buffer WarmBlock { float warm[]; };
 READ_FLOAT4(15, nearCorrection)  // of pairs.comp
 // LOADS, near solids: by what the gradient of the displaced density is multiplied in this substep, and in the warm start of the next, m^2
 layout(std430, binding = 16) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };
+READ_FLOAT(17, coherence)
 
 vec3 here;
 vec2 own;                           // multiplier change, warm start; in the unit
@@ -78,7 +79,8 @@ vec3 predictedDisplacement(vec3 from, vec3 velocity, vec3 acceleration) {
 // The sums over neighbors in meters, and what mouths add; near solids what pairs.comp has summed up.
 void endSums(uint i, uint head) {
   vec3 displaced = MOUTHS ? displacedAt(i, head).xyz : vec3(0.0);
-  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, vec3(0.0), velocity[i].xyz);
+  float flow = coherenceAt(coherencePlace(i));
+  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, vec3(0.0), velocity[i].xyz, flow);
   correction = unit * (params.gradientScale * correction + own.x * ownGradient);
   warmDisplacement = unit * (params.gradientScale * warmDisplacement + own.y * ownGradient);
   if (!isNearSolids(head)) return;

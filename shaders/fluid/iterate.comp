@@ -20,6 +20,7 @@ READ_NEAR_DISPLACED(9)
 READ_FLOAT4(10, nearCorrection)  // of pairs.comp
 layout(std430, binding = 11) writeonly buffer NearMultipliersBlock { vec2 nearMultipliers[]; };  // as in correct.comp
 layout(std430, binding = 12) readonly buffer VelocityBlock { vec4 velocity[]; };
+READ_FLOAT(13, coherence)
 
 vec3 here;
 float own;
@@ -55,7 +56,8 @@ void main() {
   visitNeighbors(i, visits ? head : 0u, local, visits);
   if (!moves) return;
   vec3 displaced = MOUTHS ? displacedAt(i, head).xyz : vec3(0.0);
-  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, vec3(0.0), velocity[i].xyz);
+  float flow = coherenceAt(coherencePlace(i));
+  vec3 ownGradient = displaced - backgroundGradient(params.gradientScale * gradients + displaced, vec3(0.0), velocity[i].xyz, flow);
   moved = unit * (params.gradientScale * moved + own * ownGradient);
   if (nearSolids) {
     moved = nearCorrectionAt(2u * i).xyz;

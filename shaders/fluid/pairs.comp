@@ -22,6 +22,7 @@ READ_UINT4(9, nearSolids)
 READ_NEAR_DISPLACED(10)
 layout(std430, binding = 11) writeonly buffer CorrectionBlock { vec4 nearCorrection[]; };  // m, two of each particle, of a mass of 1
 layout(std430, binding = 12) readonly buffer VelocityBlock { vec4 velocity[]; };
+READ_FLOAT(13, coherence)
 
 vec3 here;
 vec2 own;  // multiplier change, warm start; in the unit
@@ -77,7 +78,8 @@ void main() {
   SolidScale scale = solidScaleAt(i, head);
   vec3 displaced = displacedAt(i, head).xyz;
   vec3 bySolids = scale.diagonal != vec3(1.0) ? displaced : vec3(0.0);  // beside mouths alone the fluid goes on
-  vec3 ownGradient = unit * (displaced - backgroundGradient(params.gradientScale * gradients + displaced, bySolids, velocity[i].xyz));
+  float flow = coherenceAt(coherencePlace(i));
+  vec3 ownGradient = unit * (displaced - backgroundGradient(params.gradientScale * gradients + displaced, bySolids, velocity[i].xyz, flow));
   correction += scaledExcess(scale, correction) + toMeters * excess + own.x * ownGradient;
   warmDisplacement += scaledExcess(scale, warmDisplacement) + toMeters * warmExcess + own.y * ownGradient;
   nearCorrection[2u * i] = vec4(correction, 0.0);

@@ -47,6 +47,7 @@ void setNextPhase(uint phase, uint left) {
 
 // Noise damping acts in the first substep of a block, for the time since the last one.
 void planNoiseDamping(bool blockStart) {
+  control.coherenceKnown = uint(!blockStart && (control.noiseDamping > 0.0 || control.coherenceKnown != 0u));
   control.noiseDamping = 0.0;
   control.blockTime += control.step;
   if (!blockStart) return;

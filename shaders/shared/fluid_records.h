@@ -203,6 +203,7 @@ struct FluidControl {
   float errorRate;     // mean compression over the step's square, 1/s^2; in fluid at rest a mean over many steps
   float restFraction;      // 1: at rest, 0: at motionSpeed or faster
   float noiseDamping;       // coefficient of noise damping after this substep; 0: its passes do not run
+  uint coherenceKnown;      // 1: they have run in this block, so that it is known what of the particles' motion is flow
   float head;          // m^2/s^2, gravity times the height of the column that the fluid has stood in so far
   float artificialPressure;       // artificial pressure of this substep, over 1 / D of the rest lattice
   float blockTime;     // s since the last substep that was the first of its block

@@ -1,4 +1,7 @@
 // Substeps with viscosity, noise damping, vorticity and drag against the reference.
+#include <cmath>
+#include <numbers>
+
 #include "fluid/substep_limits.hpp"
 
 namespace rill::test {
@@ -53,6 +56,18 @@ TEST_F(SubstepTest, NoiseDampingUnderABallMatchesReference) {
   t.scene.solids.push_back(ball({0.2, 0.545, 0.2}, 0.1));
   t.scene.solids.back().friction = 0.3;
   expectEqual(t, 10, kTen, kTen, kAgeing);
+}
+
+// Deep fluid that flows slowly: what its neighbors have in common tells how much of its own pressure a particle feels.
+TEST_F(SubstepTest, SlowFlowMatchesReference) {
+  constexpr glm::ivec3 kTank = {6, 14, 6};
+  Trial t = trial();
+  setWalls(t, t.d() * glm::dvec3(6, 20, 6));
+  t.x = block(kTank, t.d(), {}, 0.05);
+  for (const glm::dvec3& x : t.x) t.v.emplace_back(0, 0, 0.05 * std::cos(std::numbers::pi * x.y / (kTank.y * t.d())));
+  t.scene.solver.relaxation.reset();
+  t.scene.solver.artificial_viscosity = 0.3;
+  expectEqual(t, 30, kTen, kTen);
 }
 
 TEST_F(SubstepTest, NoiseDampingNeedsGravity) {
