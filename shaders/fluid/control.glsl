@@ -69,6 +69,7 @@ uint accountSubstep(uint iteration, uint parity, bool blockStart) {
     again = false;
     control.step = 0.0;
     control.noiseDamping = 0.0;
+    control.coherenceKnown = 0u;
     control.diffusion = 0.0;
     control.artificialPressure = 0.0;
     if (control.phase == kPhaseSettling) settle(error, errorMax);
