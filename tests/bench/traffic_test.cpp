@@ -75,7 +75,7 @@ TEST(Traffic, StaysWithinItsBounds) {
   ASSERT_TRUE(dam) << dam.error().message;
   ASSERT_TRUE(separate) << separate.error().message;
   ASSERT_TRUE(solids) << solids.error().message;
-  expectWithin(dam->traffic, {.bytes = 455, .rebuildBytes = 30, .dispatches = 4.9, .barriers = 2.5, .serialCommands = 1});
+  expectWithin(dam->traffic, {.bytes = 459, .rebuildBytes = 30, .dispatches = 4.9, .barriers = 2.5, .serialCommands = 1});
   expectWithin(solids->traffic, {.bytes = 500, .rebuildBytes = 34, .dispatches = 8.1, .barriers = 5.7, .serialCommands = 1});
   expectAsReported(*dam, true);
   expectAsReported(*separate, false);
