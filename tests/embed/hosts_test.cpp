@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -116,7 +117,8 @@ TEST(Crates, FloatAtTheirDraught) {
   for (const Floating& c : crates) {
     SCOPED_TRACE(c.ratio);
     EXPECT_NEAR(c.draught, std::min(c.ratio, 1.0), 0.125) << "half a spacing";
-    EXPECT_LT(c.tilt_deg, 10);
+    const double face_deg = c.ratio > 1 ? 90 * std::round(c.tilt_deg / 90) : 0;  // one that bounces off the floor may roll over
+    EXPECT_LT(std::abs(c.tilt_deg - face_deg), 10);
     EXPECT_LT(c.speed, c.ratio > 1 ? 0.02 : 0.3) << "waves move what floats, not what lies on the floor";
     EXPECT_LT(c.rise_m, 0.15) << "0.06 for the lightest, 0.31 without the added mass";
   }
